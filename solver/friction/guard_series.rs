@@ -115,7 +115,7 @@ impl<'s> SeriesSpan<'s> {
                 let angle = series.angle(block);
                 self.within(self.limits.overturn_angle, |k| angle[k], visit);
             }
-            Guard::Land(_) => {}
+            Guard::Land(_) | Guard::Jam => {}
         }
     }
 

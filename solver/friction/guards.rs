@@ -3,6 +3,7 @@
 //! ```text
 //! sticks: its force leaves the cone         slides: its rate u̇ falls to zero        corner: N or φ falls to zero, or the corner passes the end of its face
 //! closed: the resultant reaches an end, or the contact's length falls to zero       free: a corner reaches the other face
+//! all: the determinant of the rows falls to zero, where blocks turn and slide against friction (Painlevé)
 //! ```
 
 use super::chain::Pose;
@@ -33,6 +34,8 @@ pub enum Guard {
     Land(Corner),
     /// The angle of a block reaches the overturning angle.
     Overturn(usize),
+    /// The determinant of the rows falls to zero: beyond, no forces continue the motion.
+    Jam,
 }
 
 impl Guard {
@@ -50,9 +53,13 @@ impl Guard {
 /// Largest number of guards of an interface and its block: those of a closed one that sticks, or of a free one.
 const MOST_GUARDS: usize = 6;
 
-/// The guards of these states.
-pub fn guards(joints: &[Joint]) -> Vec<Guard> {
-    let mut guards = Vec::with_capacity(MOST_GUARDS * joints.len());
+/// The guards of these states with these coefficients of kinetic friction.
+pub fn guards(joints: &[Joint], kinetic: &[f64]) -> Vec<Guard> {
+    let mut guards = Vec::with_capacity(MOST_GUARDS * joints.len() + 1);
+    let resists = |(joint, kinetic): (&Joint, &f64)| matches!(joint.slip(), Some(Slip::Slides(_))) && *kinetic > 0.0;
+    let turns = joints.iter().any(|joint| !matches!(joint, Joint::Closed(_)));
+    // First: forces change their sign beyond a pole as well.
+    guards.extend((turns && joints.iter().zip(kinetic).any(resists)).then_some(Guard::Jam));
     for (i, joint) in joints.iter().enumerate() {
         match joint.slip() {
             Some(Slip::Sticks) => guards.extend([Guard::Cone(i, 1), Guard::Cone(i, -1)]),
@@ -88,7 +95,7 @@ pub fn guards(joints: &[Joint]) -> Vec<Guard> {
     guards
 }
 
-/// Value of a guard that needs no forces, above zero while nothing happens; infinite for a guard of forces.
+/// Value of a guard that needs no forces, above zero while nothing happens; infinite for a guard of forces, or of the rows.
 pub fn value(guard: Guard, column: &Column, now: &Configuration, overturn_angle: f64) -> f64 {
     match guard {
         Guard::Stop(i) => now.joints[i].slip().map_or(0.0, Slip::sign) * now.slide_rate[i],
@@ -109,7 +116,7 @@ pub fn value(guard: Guard, column: &Column, now: &Configuration, overturn_angle:
             let [beside, above] = gaps::corner_position_of_pose(column, &Pose::of_free(now, corner.interface), corner);
             beside.max(above)
         }
-        Guard::Cone(..) | Guard::Press(_) | Guard::Tip(..) => f64::INFINITY,
+        Guard::Cone(..) | Guard::Press(_) | Guard::Tip(..) | Guard::Jam => f64::INFINITY,
     }
 }
 

@@ -163,21 +163,34 @@ impl<'c, 'a> Rows<'c, 'a> {
 
     /// Rates of the coordinates for which each row has the same work as for the blocks' motions `load`; `None` if the rows are singular.
     fn solve(&self, load: impl Fn(usize) -> Planar) -> Option<Rates> {
+        let blocks = self.chain.len();
+        let factors = self.factors()?;
+        let (_, tests) = self.motions.split_at(self.coordinates.len() * blocks);
+        let rows = self.coordinates.iter().zip(tests.chunks_exact(blocks));
+        let values = rows.map(|(coordinate, test)| self.work(coordinate.lowest_block(), test, &load));
+        let mut values: SmallVec<[f64; USUAL_SIZE]> = values.collect();
+        factors.solve(&mut values);
+        values.iter().all(|x| x.is_finite()).then(|| by_block(&self.coordinates, &values, blocks))
+    }
+
+    /// The factorised matrix of the rows; `None` if they are singular.
+    fn factors(&self) -> Option<Factors> {
         let (size, blocks) = (self.coordinates.len(), self.chain.len());
         let (columns, tests) = self.motions.split_at(size * blocks);
         let mut factors = Factors::with_size(size);
-        let mut values = SmallVec::<[f64; USUAL_SIZE]>::new();
         for (row, test) in tests.chunks_exact(blocks).enumerate() {
             let lowest = self.coordinates[row].lowest_block();
             for (column, motion) in columns.chunks_exact(blocks).enumerate() {
                 let lowest = lowest.max(self.coordinates[column].lowest_block());
                 *factors.entry(row, column) = self.work(lowest, test, |block| motion[block]);
             }
-            values.push(self.work(lowest, test, &load));
         }
-        factors.factorise()?;
-        factors.solve(&mut values);
-        values.iter().all(|x| x.is_finite()).then(|| by_block(&self.coordinates, &values, blocks))
+        factors.factorise().map(|()| factors)
+    }
+
+    /// Whether the determinant of the rows is above zero; `None` if they are singular. Where nothing slides against friction, it always is.
+    pub fn is_positive(&self) -> Option<bool> {
+        self.factors().map(|factors| factors.is_positive())
     }
 
     /// The accelerations at these rates on a moving ground.

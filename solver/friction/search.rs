@@ -207,14 +207,15 @@ impl<'a> Search<'a> {
         Some(joints.iter().enumerate().map(carried).collect())
     }
 
-    /// Accelerations: admissible states other than `excluded`. Impact: admissible states that change the motion. `None` if none are found.
+    /// Admissible states other than `excluded`; in an impact, those that change the motion. `None` if none are found.
     pub fn solve_otherwise(&self, excluded: &[Joint]) -> Option<Solution> {
-        let is_other = |joints: &[Joint], answer: &Answer| match self.question {
-            Question::Accelerations(_) => joints != excluded,
-            Question::Impact(_) => {
-                let fastest = answer.change.linear.iter().fold(0.0f64, |most, v| most.max(v[0].abs() + v[1].abs()));
-                fastest > JUMP_SHARE * self.linear
-            }
+        let changes = |answer: &Answer| {
+            let fastest = answer.change.linear.iter().fold(0.0f64, |most, v| most.max(v[0].abs() + v[1].abs()));
+            fastest > JUMP_SHARE * self.linear
+        };
+        // Where the rows of the present states are singular, rounding gives these states a change of any size.
+        let is_other = |joints: &[Joint], answer: &Answer| {
+            joints != excluded && (matches!(self.question, Question::Accelerations(_)) || changes(answer))
         };
         let first = self.first();
         let found = self.tried(&first, is_other);

@@ -278,6 +278,11 @@ impl Series {
         }
     }
 
+    /// Whether the determinant of the rows at the start is above zero.
+    pub fn is_positive(&self) -> bool {
+        self.factors.is_positive()
+    }
+
     /// Number of known orders of second derivatives; coordinates have two orders more.
     pub fn orders(&self) -> usize {
         self.orders

@@ -109,3 +109,26 @@ fn series_satisfy_the_rows_at_the_start_of_a_step_and_inside_it() {
     // A thousand roundings at the start: the rows may be far from regular. Inside, the truncation as well. Measured: 4e-14.
     assert!(worst[0] < 1e-12 && worst[1] < 1e-10, "{worst:?}");
 }
+
+#[test]
+fn series_and_rows_agree_where_the_rows_change_their_sign() {
+    let mut random = Random::seeded(0x0F1E_2D3C_4B5A_6978);
+    let mut negative = 0;
+    for joints in (1..=3).flat_map(combinations) {
+        let (column, start) = random_configuration(&mut random, &joints);
+        let kinetic: Vec<f64> = joints.iter().map(|_| random.within(0.0, 3.0)).collect();
+        let both: Vec<[f64; 2]> = super::rows::coordinates(&joints).iter().map(|own| own.of(&start)).collect();
+        let x: Vec<f64> = [0, 1].into_iter().flat_map(|part| both.iter().map(move |pair| pair[part])).collect();
+        let mut series = Series::new(&column, &start, &kinetic);
+        let begun = series.begin(&x, [&GROUND[0], &GROUND[1]]);
+        let chain = Chain::new(&column, &start);
+        let centres: Vec<f64> = (0..joints.len()).map(|i| centre(&column, i, start.slide[i])).collect();
+        let expected = Rows::new(&chain, &joints, &kinetic, &centres).is_positive();
+        assert_eq!(begun.map(|()| series.is_positive()), expected, "{joints:?}");
+        negative += usize::from(expected == Some(false));
+        // Nothing that slides without friction can jam.
+        let smooth = vec![0.0; joints.len()];
+        assert_eq!(Rows::new(&chain, &joints, &smooth, &centres).is_positive(), Some(true), "{joints:?}");
+    }
+    assert!(negative > 20, "{negative}");
+}

@@ -95,6 +95,13 @@ impl Factors {
         Some(())
     }
 
+    /// Whether the determinant is above zero. The matrix must be factorised.
+    pub fn is_positive(&self) -> bool {
+        let swaps = self.pivots.iter().enumerate().filter(|(column, pivot)| column != *pivot).count();
+        let negative = (0..self.size).filter(|k| self.entries[k * self.size + k] < 0.0).count();
+        (swaps + negative).is_multiple_of(2)
+    }
+
     /// Replaces loads by the solution. The matrix must be factorised.
     pub fn solve(&self, loads: &mut [f64]) {
         let (size, a) = (self.size, &self.entries);
@@ -132,6 +139,18 @@ mod tests {
         let mut solution = loads;
         factors.solve(&mut solution);
         assert!(solution.iter().zip(&x).all(|(a, b)| (a - b).abs() < 1e-14), "{solution:?}");
+    }
+
+    #[test]
+    fn the_sign_of_the_determinant_counts_swaps() {
+        let of = |matrix: [[f64; 2]; 2]| {
+            let mut factors = Factors::with_size(2);
+            (0..4).for_each(|k| *factors.entry(k / 2, k % 2) = matrix[k / 2][k % 2]);
+            factors.factorise().expect("regular");
+            factors.is_positive()
+        };
+        assert!(of([[2.0, 1.0], [1.0, 2.0]]) && of([[0.0, -1.0], [1.0, 0.0]]) && of([[-2.0, 1.0], [1.0, -2.0]]));
+        assert!(!of([[0.0, 1.0], [1.0, 0.0]]) && !of([[1.0, 2.0], [2.0, 1.0]]));
     }
 
     #[test]

@@ -194,3 +194,59 @@ fn restitution_that_friction_does_not_allow_is_counted() {
         assert_eq!(response.warnings().iter().any(|warning| warning.contains("restitution")), left_out);
     }
 }
+
+/// Two blocks that turn and slide run into a jam: the determinant of their rows falls to zero, and no forces go on beyond. Steps passed over that instant,
+/// and blocks slid on until they flew, at a time that changed with method and tolerance.
+#[test]
+fn blocks_jam_where_the_rows_become_singular() {
+    let lower = Block::rectangle(0.5475, 0.6, 1033.0 / (4.0 * 0.5475 * 0.6));
+    let upper = |height: f64, mass: f64| Block::rectangle(0.4434, height, mass / (4.0 * 0.4434 * height));
+    // Friction, upper block, ground, places and velocities; time of the jam and of the end.
+    let cases = [
+        (
+            (0.6, upper(2.4, 7936.0), 3.549_028_023_776_017_4),
+            [0.546_860_034_209_140_5, 0.600_583_343_912_215_7, 1.915_310_101_960_498_6, 3.319_668_739_604_288],
+            [-1.801_660_616_401_177_3, 0.043_824_494_185_058_95, -2.410_203_303_372_33, -1.027_226_932_229_491],
+            [-0.001_066_091_302_185_215_1, 0.701_943_715_682_109_3],
+            [-0.080_138_411_007_557_31, 0.892_606_238_153_708_5],
+            [0.019_058_473_26, 0.432_075_555],
+        ),
+        (
+            (0.7, upper(2.4, 3874.0), 7.356_373_273_011_097),
+            [0.546_860_034_209_140_5, 0.600_583_343_912_215_7, 2.394_093_347_264_577, 3.034_048_832_397_264_3],
+            [-1.520_883_016_682_513_6, 0.134_273_588_678_503_03, -1.917_875_280_941_769_2, -1.389_307_472_740_467_3],
+            [-0.001_066_091_302_185_215_1, 0.903_717_909_038_365_1],
+            [-0.245_535_567_199_909_13, 0.980_242_403_647_377_4],
+            [0.041_240_537_94, 0.290_358_901],
+        ),
+    ];
+    for ((mu, upper, amplitude), place, velocity, theta, omega, expected) in cases {
+        let mut scene = scene(vec![lower, upper], vec![mu; 2]);
+        scene.excitation.horizontal = Some(Motion::Rectangular { amplitude, start: 0.0, duration: 1.0 });
+        (scene.initial.theta, scene.initial.omega) = (theta.to_vec(), omega.to_vec());
+        (scene.initial.x, scene.initial.y) = (vec![place[0], place[2]], vec![place[1], place[3]]);
+        (scene.initial.vx, scene.initial.vy) = (vec![velocity[0], velocity[2]], vec![velocity[1], velocity[3]]);
+        scene.options.t_end = 4.0;
+        for (method, rtol) in [
+            (Method::Auto, 1e-9),
+            (Method::Auto, 1e-12),
+            (Method::Dop853, 1e-9),
+            (Method::DormandPrince54, 1e-9),
+            (Method::DormandPrince54, 1e-12),
+        ] {
+            (scene.options.method, scene.options.rtol, scene.options.atol) = (method, rtol, 1e-3 * rtol);
+            let response = run(&scene);
+            let jammed = &response.sliding.as_ref().expect("friction").jammed;
+            let [jam] = jammed[..] else { panic!("{method:?}, {rtol}: jams at {jammed:?}") };
+            assert_eq!(response.status, StopReason::Collapsed, "{method:?}, {rtol}");
+            // Steps of 1e-9 leave their error, and the fall afterwards makes it grow.
+            let found = [jam, response.t_final];
+            assert!(found.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-9), "{method:?}, {rtol}: {found:?}");
+            // The impulses of the jam stay in their cones.
+            let event = response.events.iter().find(|event| event.t == jam && event.kind == EventKind::Impact);
+            for impulse in &event.expect("an impact").impulses {
+                assert!(impulse.tangential.abs() <= mu * impulse.normal * (1.0 + 1e-9), "{impulse:?}");
+            }
+        }
+    }
+}

@@ -175,7 +175,7 @@ impl<'p> Mover<'p> {
         progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<(SlidingState, SlidingEnded), SolveError> {
         let problem = self.problem;
-        let list = guards::guards(&from.configuration.joints);
+        let list = guards::guards(&from.configuration.joints, &self.friction.kinetic);
         let mut smooth = self.smooth(from);
         let mut method = S::new(problem, &smooth, from, self.pace.unwrap_or(FIRST_STEP));
         let mut at = SegmentTime { t: from.t, segment: from.segment };

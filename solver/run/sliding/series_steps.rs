@@ -63,6 +63,7 @@ impl<'p> Steps<'p> for SeriesSteps<'p> {
         ground[1][0] += smooth.gravity;
         let series = &mut self.series;
         let begun = series.begin(x, [&ground[0], &ground[1]]);
+        smooth.is_positive.get_or_init(|| begun.map(|()| series.is_positive()));
         let (tolerance, size) = (self.problem.tolerance, smooth.column.size());
         let limits = StepLimits { tolerance, ground: &ground, size, speed: (size * smooth.gravity).sqrt() };
         let most = left.min(LARGEST_GROWTH * self.suggested).min(longest);

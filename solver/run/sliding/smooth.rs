@@ -38,6 +38,8 @@ pub struct Smooth<'p> {
     programs: Programs,
     pub gravity: f64,
     pub segment: &'p Segment,
+    /// Whether the determinant of the rows is above zero where these states begin; `None` if the rows are singular there.
+    pub is_positive: OnceCell<Option<bool>>,
     /// Evaluations so far.
     pub calls: usize,
 }
@@ -55,6 +57,7 @@ impl<'p> Smooth<'p> {
             base,
             gravity: column.gravity(),
             segment: &problem.ground[from.segment],
+            is_positive: OnceCell::new(),
             calls: 0,
         }
     }
@@ -114,6 +117,16 @@ impl<'p> Smooth<'p> {
             moment.answer = self.solved(t, &moment.configuration, moment.chain());
         }
         moment.answer.get_or_insert_with(|| Answer::none(blocks))
+    }
+
+    /// Whether the determinant of the rows has the sign that it had where these states began. Where it changes, forces are infinite on the way (Painlevé).
+    pub fn is_regular(&self, now: &Configuration, chain: &Chain) -> bool {
+        let of = |now: &Configuration, chain: &Chain| {
+            let centres: PerBlock<f64> = (0..self.column.len()).map(|i| centre(self.column, i, now.slide[i])).collect();
+            Rows::new(chain, &now.joints, &self.friction.kinetic, &centres).is_positive()
+        };
+        let at_start = self.is_positive.get_or_init(|| of(&self.base, &Chain::new(self.column, &self.base)));
+        of(now, chain) == *at_start
     }
 
     /// Why no step can be taken from a state at a time `[s]`; `step` is the last one that was tried `[s]`.

@@ -26,7 +26,7 @@ pub enum SlidingEnded {
     Guard(Guard),
     /// The ground's acceleration jumped.
     Jump,
-    /// Forces grow without bound.
+    /// The rows become singular, or forces grow without bound.
     Jam,
     /// What follows is beyond the limits of a run without sliding. Nothing has happened yet.
     Limits,
@@ -39,6 +39,7 @@ impl SlidingEnded {
     pub fn at(guard: Guard) -> SlidingEnded {
         match guard {
             Guard::Overturn(block) => SlidingEnded::Over(RunEnd::Overturned(block)),
+            Guard::Jam => SlidingEnded::Jam,
             guard => SlidingEnded::Guard(guard),
         }
     }

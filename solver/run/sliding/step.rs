@@ -100,20 +100,30 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
 
     /// The moment at a place of the step, 0 to 1, with accelerations and forces where they are needed.
     fn at(&mut self, s: f64, needs_forces: bool) -> &Moment<'p> {
-        let index = match self.places.iter().position(|place| *place == s) {
-            Some(index) => index,
-            None => {
-                self.output.state(s, &mut self.state);
-                self.places.push(s);
-                self.moments.push(self.smooth.moment(self.smooth.configuration(&self.state)));
-                self.places.len() - 1
-            }
-        };
+        let index = self.index_of(s);
         let moment = &mut self.moments[index];
         if needs_forces {
             self.smooth.answer(self.t + s * self.h, moment);
         }
         moment
+    }
+
+    /// Index of the moment at a place, which is added if it is not there.
+    fn index_of(&mut self, s: f64) -> usize {
+        if let Some(index) = self.places.iter().position(|place| *place == s) {
+            return index;
+        }
+        self.output.state(s, &mut self.state);
+        self.places.push(s);
+        self.moments.push(self.smooth.moment(self.smooth.configuration(&self.state)));
+        self.places.len() - 1
+    }
+
+    /// Whether the rows at a place have a determinant of the sign of that where the states begin.
+    fn is_regular(&mut self, s: f64) -> bool {
+        let index = self.index_of(s);
+        let moment = &self.moments[index];
+        self.smooth.is_regular(&moment.configuration, moment.chain())
     }
 
     fn value(&mut self, guard: Guard, s: f64) -> f64 {

@@ -8,11 +8,14 @@ use crate::friction::contact_problem::{Coefficients, Question, Touch, half_lengt
 use crate::friction::guards::Guard;
 use crate::friction::joint::{Configuration, Joint, Sign, Slip, face};
 use crate::friction::rows::Rows;
-use crate::friction::search::{Search, Solution};
+use crate::friction::search::{Search, Solution, acceleration_scale};
 use crate::mechanics::kinematics::{lower, relative};
 use crate::numerics::per_block::PerBlock;
 use crate::response::{EventKind, Impulse};
 use crate::run::problem::Problem;
+
+/// Accelerations beyond which a motion jams, as multiples of those at work.
+const ACCELERATION_OF_JAM: f64 = 1e6;
 
 /// A transition of a run: what the laws of contact have decided about `x⁻`.
 pub struct SlidingTransition {
@@ -57,14 +60,15 @@ pub fn transition(
     let mut pending = PendingTransition::new(problem, friction, before, lookahead);
     let guard = match ended {
         SlidingEnded::Guard(guard) => guard,
-        SlidingEnded::Jam => {
-            pending.jam();
-            return pending.decided(EventKind::Impact, None);
-        }
+        SlidingEnded::Jam => Guard::Jam,
         SlidingEnded::Jump | SlidingEnded::Limits => return pending.decided(EventKind::Jump, None),
         SlidingEnded::Over(end) => return pending.end(end),
     };
     let (kind, hint) = match guard {
+        Guard::Jam => {
+            pending.jam();
+            (EventKind::Impact, None)
+        }
         Guard::Overturn(block) => return pending.end(RunEnd::Overturned(block)),
         Guard::Collapse(interface) => return pending.collapsed(interface),
         Guard::Close(interface) => {
@@ -417,17 +421,20 @@ impl<'p> PendingTransition<'p> {
     /// slides of this instant are stilled together: one at a time, each would pass its momentum on to the others.
     fn too_low(&self, solution: &Solution, stilled: &mut Stilled) -> Option<PerBlock<Joint>> {
         let least = self.resolution.lowest_hop;
-        let returns = |rate: f64, change: f64, least: f64| {
-            rate != 0.0 && rate * change < 0.0 && rate * rate < 2.0 * change.abs() * least
+        let ground = self.problem.ground_at(self.segment, self.t);
+        // Larger accelerations are those of blocks about to jam, which stop motions of any speed in no time: by impulses, not by the end of a hop.
+        let most = ACCELERATION_OF_JAM * acceleration_scale(self.column(), &self.now, ground);
+        let returns = |rate: f64, change: f64, least: f64, most: f64| {
+            rate != 0.0 && rate * change < 0.0 && rate * rate < 2.0 * change.abs().min(most) * least
         };
         let hops = |interface: usize| {
             let turn = relative(&solution.answer.motion.omega, interface);
             self.now.relative_angle(interface).abs() <= self.resolution.angle
-                && returns(self.now.relative_rate(interface), turn, least)
+                && returns(self.now.relative_rate(interface), turn, least, most / self.resolution.size)
         };
         let stops = |interface: usize| {
             let length = half_length(self.column(), interface, self.now.slide[interface]);
-            returns(self.now.slide_rate[interface], solution.answer.motion.slide[interface], least * length)
+            returns(self.now.slide_rate[interface], solution.answer.motion.slide[interface], least * length, most)
         };
         let mut is_new = false;
         for (interface, joint) in solution.joints.iter().enumerate() {

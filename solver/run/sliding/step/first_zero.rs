@@ -9,6 +9,7 @@ use crate::friction::search::{ACCELERATION_SHARE, acceleration_scale};
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::guards::first_crossing;
 use crate::numerics::polynomial::powers::Powers;
+use crate::run::sliding::AT_ONCE;
 
 /// Share of its scale below which a guard that starts from zero has not left zero.
 const START_ROUNDING: f64 = 1e-15;
@@ -28,6 +29,9 @@ const REFINEMENTS: usize = 6;
 /// Newton's step, as a share of the step, after which the error is its square, and so below rounding.
 const NEAR_ROOT: f64 = 1e-9;
 
+/// Bisections after which a place in a step is known to rounding.
+const BISECTIONS: usize = 50;
+
 /// Multiple of the noise of a guard beyond which the guard has certainly left zero, upwards or downwards.
 const CLEAR_MULTIPLE: f64 = 8.0;
 
@@ -39,8 +43,17 @@ impl<O: Output> Step<'_, '_, O> {
     pub fn first_of(&mut self, list: &[Guard]) -> Option<(f64, Guard)> {
         let mut first: Option<(f64, Guard)> = None;
         for &guard in list {
-            let limit = first.map_or(1.0, |(s, _)| s);
+            let limit = match first {
+                None => 1.0,
+                // In the instant of the pole, forces have either sign.
+                Some((s, Guard::Jam)) => s - AT_ONCE * self.t.max(1.0) / self.h,
+                Some((s, _)) => s,
+            };
+            if limit <= 0.0 {
+                break;
+            }
             let found = match (guard, self.output.series()) {
+                (Guard::Jam, _) => self.jam(limit),
                 (Guard::Land(corner), Some(span)) => {
                     let ([along, above], reach) = span.gap(corner);
                     let gap = |_: &mut Self, s: f64| [along.evaluate(s).abs() - reach, above.evaluate(s)];
@@ -64,6 +77,19 @@ impl<O: Output> Step<'_, '_, O> {
             }
         }
         first
+    }
+
+    /// The first place up to `limit` at which the rows are singular, found by bisection where their determinant changes sign.
+    fn jam(&mut self, limit: f64) -> Option<f64> {
+        if self.is_regular(limit) {
+            return None;
+        }
+        let (mut before, mut after) = (0.0, limit);
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (before + after);
+            if self.is_regular(middle) { before = middle } else { after = middle }
+        }
+        Some(before)
     }
 
     /// How far a corner of a free interface is beside the other block's face, and how far above it `[m]`.
