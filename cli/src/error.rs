@@ -3,6 +3,7 @@
 use crate::text::{printable_lines, shown};
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
 use rocking::run_folder::FolderError;
+use rocking::studies::TooFewReplicates;
 use rocking::{RecordError, SceneFileError, SolveError};
 use rocking_codegen::joints::JointsError;
 use std::fmt;
@@ -64,6 +65,15 @@ pub enum Failure {
     #[error("{}: this build of rocking has no Parquet; build it with `cargo build --release -p rocking-cli --features parquet`, or \
          name a table .csv", .0.display())]
     NoParquet(PathBuf),
+    /// A table cannot have the format that the end of its name says.
+    #[error("{}: tables are CSV or Parquet; give a name that ends in .csv or .parquet", .0.display())]
+    NoFormat(PathBuf),
+    /// A small table is written as CSV alone.
+    #[error("{}: curves and shares are written as CSV; give a name that ends in .csv", .0.display())]
+    OnlyCsv(PathBuf),
+    /// There are too few replicates for bands.
+    #[error("--replicates: {0}")]
+    Bands(TooFewReplicates),
     /// The figures of a table or a sweep cannot be drawn: its file, and the reason.
     #[error("{}: {}", .0.display(), .1)]
     Spectrum(PathBuf, String),

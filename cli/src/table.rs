@@ -24,15 +24,23 @@ pub enum Format {
 }
 
 impl Format {
-    /// Format by the extension of a file: Parquet for `.parquet`, otherwise CSV. [`Failure::NoParquet`] if this build has no Parquet.
+    /// Extensions of other formats, in which no table is written.
+    const OTHERS: [&str; 10] = ["xlsx", "xls", "ods", "gz", "zip", "json", "feather", "arrow", "h5", "toml"];
+
+    /// Format by the extension of a file: Parquet for `.parquet`, otherwise CSV.
+    ///
+    /// # Errors
+    /// [`Failure::NoParquet`] if this build has no Parquet, [`Failure::NoFormat`] for the extension of another format.
     pub fn of(path: &Path) -> Result<Format, Failure> {
-        match path.extension() {
-            Some(extension) if extension.eq_ignore_ascii_case("parquet") => {
+        let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
+        match extension.as_deref() {
+            Some("parquet") => {
                 #[cfg(feature = "parquet")]
                 return Ok(Format::Parquet);
                 #[cfg(not(feature = "parquet"))]
                 return Err(Failure::NoParquet(path.into()));
             }
+            Some(other) if Format::OTHERS.contains(&other) => Err(Failure::NoFormat(path.into())),
             _ => Ok(Format::Csv),
         }
     }

@@ -547,3 +547,73 @@ fn a_run_whose_figure_has_no_place_leaves_the_folder_as_it_is() {
     assert_eq!(read(out.join("summary.json")).expect("written"), before);
     assert!(out.join("time-history.svg").is_file());
 }
+
+/// A record whose link leads nowhere is missing; without it, another component would stand for the one that was asked for.
+#[cfg(unix)]
+#[test]
+fn links_of_a_folder_that_lead_nowhere_are_refused() {
+    let folder = folder_with(&SCENE.replace(
+        "[excitation.horizontal]\nkind = \"sine-pulse\"\namplitude = 4.0\nomega = 10.0\n",
+        "[excitation.station]\nrecord = \"records/RSN1\"\n",
+    ));
+    let records = folder.path().join("records");
+    std::fs::create_dir(&records).expect("made");
+    let text = "t (s),a (m/s2)\n0,0\n0.01,1\n0.02,0\n";
+    write(records.join("RSN1_X_090.csv"), text).expect("written");
+    std::os::unix::fs::symlink("nowhere/RSN1_X_000.csv", records.join("RSN1_X_000.csv")).expect("made");
+    fails(folder.path(), &["run", "scene.toml"], 2, &["RSN1_X_000.csv", "No such file"]);
+    let study = "scene = \"scene.toml\"\nmeasure = \"pga\"\nlevels = [0.5]\n[records]\nfolder = \"records\"\n";
+    write(folder.path().join("ida.toml"), study).expect("written");
+    fails(folder.path(), &["ida", "ida.toml"], 2, &["RSN1_X_000.csv", "No such file"]);
+    let listed = rocking(folder.path(), &["record", "records"]);
+    assert!(String::from_utf8_lossy(&listed.stderr).contains("RSN1_X_000.csv"));
+}
+
+/// Columns of one block say nothing of a second one, whether they are lost or not.
+#[test]
+fn fragility_takes_each_run_once_and_only_of_columns_with_the_block() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let header = "index,record,pgv,outcome,peak_1,peak_2\n";
+    let two = "0,a,0.1,rocks,0.1,0.2\n1,a,0.5,overturns,1.0,1.0\n2,b,0.1,rocks,0.1,0.4\n3,b,0.5,rocks,0.1,0.2\n";
+    let one = "4,c,0.1,overturns,1.0,\n5,c,0.5,rocks,0.2,\n";
+    let table = |rows: &str| write(folder.path().join("t.csv"), format!("{header}{rows}")).expect("written");
+    let fit = ["fragility", "t.csv", "--state", "peak_2 > 0.3", "--replicates", "0"];
+    table(two);
+    succeeds(folder.path(), &fit);
+    let shares = || read_to_string(folder.path().join("t-shares.csv")).expect("written");
+    let alone = shares();
+    table(&format!("{two}{one}"));
+    succeeds(folder.path(), &fit);
+    assert_eq!(shares(), alone);
+    table(&format!("{two}{two}"));
+    fails(folder.path(), &fit, 2, &["row 5", "give each run once"]);
+    // The same numbers of another record are other runs.
+    table(&format!("{two}{}", two.replace(",a,", ",d,").replace(",b,", ",e,")));
+    succeeds(folder.path(), &fit);
+    table(two);
+    fails(folder.path(), &["fragility", "t.csv", "--replicates", "3"], 2, &["--replicates: 3", "at least 20"]);
+    fails(folder.path(), &["fragility", "t.csv", "--out", "f.xlsx"], 2, &["f.xlsx", ".csv"]);
+    if cfg!(feature = "parquet") {
+        fails(folder.path(), &["fragility", "t.csv", "--out", "f.parquet"], 2, &["f.parquet", "written as CSV"]);
+    }
+}
+
+/// The line of the base scene has a sound value: the one at fault stands on the axis.
+#[test]
+fn a_value_of_an_axis_is_not_blamed_on_the_base_scene() {
+    let folder = folder("scene = \"base.toml\"\n[axes]\neta = [0.9, 1.5]\n");
+    succeeds(folder.path(), &["sweep", "sweep.toml", "--out", "t.csv"]);
+    let table = read_to_string(folder.path().join("t.csv")).expect("written");
+    assert!(table.contains("axis `restitution.eta`: 1.5 is out of range") && !table.contains("base.toml"), "{table}");
+    fails(folder.path(), &["sweep", "sweep.toml", "--out", "t.xlsx"], 2, &["t.xlsx", "CSV or Parquet"]);
+}
+
+/// The file has the word, not the option.
+#[test]
+fn words_of_a_record_are_quoted_as_they_are() {
+    let folder = tempfile::tempdir().expect("a folder");
+    write(folder.path().join("a.txt"), "units g dt 0.01\n0.1 0.2 0.3 0.4 0.5\n0.1 0.2 0.3 0.4 0.5\n").expect("written");
+    fails(folder.path(), &["record", "a.txt"], 2, &["`units` is no number", "`--skip-rows`"]);
+    write(folder.path().join("b.txt"), "0.1\n0.2\n0.3\n").expect("written");
+    fails(folder.path(), &["record", "b.txt"], 2, &["`--units`"]);
+}

@@ -347,3 +347,54 @@ fn headers_that_contradict_themselves_are_refused_unless_lenient() {
         assert!(!file.warnings.is_empty(), "{name}");
     }
 }
+
+#[test]
+fn a_table_that_ends_in_zero_bytes_was_not_written_to_its_end() {
+    let whole = table("t [s],a [g]", seconds);
+    let half = whole.len() / 2;
+    for cut in [whole[..half].rfind('\n').expect("lines") + 1, half] {
+        let padded = format!("{}{}", &whole[..cut], "\0".repeat(whole.len() - cut));
+        let error = refused(&padded, &options());
+        assert!(error.contains("zero bytes") && error.contains("line 1"), "{error}");
+    }
+    // Old programs end a file with Ctrl-Z.
+    assert_eq!(read(&format!("{whole}\u{1a}"), &options()).accel.len(), 20);
+}
+
+#[test]
+fn tables_that_contradict_themselves_are_refused_unless_lenient() {
+    let lenient = TextOptions { lenient: true, ..options() };
+    for (text, parts) in [
+        (table("# units m/s2\nt [s],a [g]", seconds), ["column `a` is in g", "line 1 states m/s²"]),
+        (table("# dt=0.01\n# units g\n# dt=0.02", value), ["0.02 s is stated", "0.01 s in line 1"]),
+    ] {
+        let error = refused(&text, &options());
+        assert!(parts.iter().all(|part| error.contains(part)) && error.contains("`lenient`"), "{error}");
+        let file = read(&text, &lenient);
+        assert!((file.unit, file.dt) == (AccelerationUnit::G, 0.01), "{} {}", file.unit, file.dt);
+        assert!(file.warnings.iter().any(|warning| warning.contains(parts[0])), "{:?}", file.warnings);
+    }
+    let error = refused(&table("t [s],a [g]\ns,cm/s2", seconds), &options());
+    assert!(error.contains("`g and cm/s2` of column `a`"), "{error}");
+    assert_eq!(read(&table("t [s],a [g]\nsec,g", seconds), &options()).unit, AccelerationUnit::G);
+}
+
+#[test]
+fn one_column_with_decimal_commas_is_read() {
+    let comma = |_: usize, a: f64| format!("{a:.5}").replace('.', ",");
+    let expected: Vec<f64> = samples().iter().map(|a| a * G).collect();
+    let close = |file: RecordFile| file.accel.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-12);
+    let with_dt = TextOptions { dt: Some(0.01), ..options() };
+    assert!(close(read(&table("a [g]", comma), &with_dt)));
+    let without_name = table("", comma).trim_start().to_string();
+    assert!(close(read(&without_name, &TextOptions { dt: Some(0.01), ..in_g() })));
+    // Two columns of whole numbers are no decimal fractions.
+    let counts = table("", |k, _| format!("{k},{}", 10 + 7 * (k % 3)));
+    assert_eq!(read(counts.trim_start(), &in_g()).dt, 1.0);
+}
+
+#[test]
+fn a_record_of_zeros_has_a_warning() {
+    let file = read(&table("t [s],a [g]", |k, _| seconds(k, 0.0)), &options());
+    assert!(file.warnings.iter().any(|warning| warning.contains("all samples are zero")), "{:?}", file.warnings);
+}

@@ -291,6 +291,7 @@ pub fn fragility(
     }
     let mut options = FragilityOptions::default();
     (options.replicates, options.confidence, options.seed) = (replicates, confidence, seed);
+    options.check().map_err(|few| PyValueError::new_err(few.to_string()))?;
     let named = |name: &str| {
         name.parse()
             .map_err(|refused: NoLayout| PyValueError::new_err(format!("there is no layout `{name}`; {refused}")))

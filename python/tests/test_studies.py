@@ -5,6 +5,7 @@ from __future__ import annotations
 import pickle
 import sys
 from pathlib import Path
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -398,3 +399,36 @@ def test_the_scene_of_a_point_runs_to_its_end():
 def test_records_of_a_study_are_records():
     with pytest.raises(TypeError, match="record 2 is a ndarray; give a Record"):
         rk.Records([rk.Record([0.0, 1.0], dt=0.01), np.array([0.0, 1.0])])
+
+
+def test_runs_stand_once_and_have_outcomes() -> None:
+    plan = rk.Ida(rk.Column.prisms(1, half_width=0.3, half_height=1.4), rk.synthetic(range(4), frequency=1.5), "PGV", [0.2, 0.9], eta=0.9, trust=False)
+    table = plan.table()
+    with pytest.raises(rk.StudyError, match="run 3 stands in the table twice; give each run once"):
+        rk.Study(pd.concat([plan.table(0, 5), plan.table(3, 8)]))
+    # The same numbers of other records are other runs.
+    pooled = pd.concat([table, table.assign(record=table.record.astype(str) + "'")])
+    assert len(rk.Study(pooled).stripes) == 2
+    with pytest.raises(rk.StudyError, match="row 3 has no outcome; give the table as it was made"):
+        rk.Study(table.assign(outcome=table.outcome.astype(object).where(table.index != 2)))
+    with pytest.raises(ValueError, match=r"3 replicate\(s\) have no bands of 90 %; give 0 for no bands, or at least 20"):
+        rk.Study(table).fragility(replicates=3)
+
+
+def test_values_of_other_types_are_named() -> None:
+    column = rk.Column.prisms(1, half_width=0.3, half_height=1.4)
+    table = pd.DataFrame({"record": ["a"], "pgv": [0.2], "outcome": ["rocks"], "peak_1": [0.1]})
+    record = rk.Record([0.0, 1.0, 0.0], 0.1)
+    refused: list[tuple[Any, str]] = [
+        (lambda: rk.sweep(column, {"eta": [0.9]}), "scene is of Column; give a Scene"),
+        (lambda: rk.Study(table).fragility(3), "state is of int; give the text of one limit state"),
+        (lambda: rk.Study({}), "table is of dict; give a DataFrame of runs"),
+        (lambda: record.scaled(pga_uplift=2, column=3), "column is of int; give a Column"),
+        (lambda: rk.Scene(column, keys=3), "keys are of int; give a dictionary"),
+        (lambda: rk.Scene.from_dict(3), "keys are of int; give a dictionary"),
+        (lambda: rk.Record(np.array(["2020", "2021"], dtype="M8[s]"), 0.1), "accel has times; give accelerations"),
+    ]
+    for call, message in refused:
+        with pytest.raises(TypeError, match=message):
+            call()
+    assert dict(record + rk.pulse("sine-pulse", amplitude=1.0, omega=5.0))["kind"] == "sum"

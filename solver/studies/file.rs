@@ -311,6 +311,10 @@ fn fragility(root: &mut Table, scene: &Scene) -> Result<(Vec<LimitState>, Fragil
         }
         options.confidence = confidence;
     }
+    options.check().map_err(|few| {
+        let remedy = format!("give 0 for no bands, or at least {}", few.least);
+        table.wrong("replicates", format!("{} are too few", few.replicates), &remedy)
+    })?;
     options.seed = table.whole("seed", 0)?.unwrap_or(options.seed);
     if let Some((name, _)) = table.text("layout")? {
         let layout = name.parse().map_err(|_: NoLayout| table.no_such("layout", "layout", &name, &Layout::NAMES))?;

@@ -67,6 +67,35 @@ pub struct FragilityOptions {
     pub layout: Option<Layout>,
 }
 
+/// Too few replicates for percentiles.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{replicates} replicate(s) have no bands of {:.0} %; give 0 for no bands, or at least {least}", 100.0 * confidence)]
+pub struct TooFewReplicates {
+    /// Number of replicates.
+    pub replicates: usize,
+    /// Share within the bands.
+    pub confidence: f64,
+    /// Least number of replicates with which one is beyond each end of the bands.
+    pub least: usize,
+}
+
+impl FragilityOptions {
+    /// Checks that there are replicates beyond the ends of the bands.
+    ///
+    /// # Errors
+    /// [`TooFewReplicates`]
+    pub fn check(&self) -> Result<(), TooFewReplicates> {
+        let &FragilityOptions { replicates, confidence, .. } = self;
+        // Without the rounding of shares such as 0.9.
+        let least = (2.0 / (1.0 - confidence) - 1e-6).ceil() as usize;
+        match replicates {
+            0 => Ok(()),
+            few if few < least => Err(TooFewReplicates { replicates, confidence, least }),
+            _ => Ok(()),
+        }
+    }
+}
+
 impl Default for FragilityOptions {
     fn default() -> FragilityOptions {
         FragilityOptions { replicates: 1000, confidence: 0.9, seed: 0, layout: None }
@@ -452,6 +481,7 @@ struct Table {
 
 impl Table {
     fn of(runs: &[Observation], state: LimitState) -> Table {
+        let runs: Vec<&Observation> = runs.iter().filter(|run| state.concerns(run)).collect();
         let mut levels: Vec<f64> = runs.iter().map(|run| run.level).collect();
         levels.sort_by(f64::total_cmp);
         levels.dedup();
@@ -465,7 +495,7 @@ impl Table {
             let level = levels.partition_point(|level| *level < run.level);
             (record, level, state.is_reached(run).filter(|_| is_observed))
         };
-        let runs = runs.iter().map(place).collect();
+        let runs = runs.into_iter().map(place).collect();
         Table { records, levels, runs }
     }
 

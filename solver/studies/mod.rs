@@ -18,7 +18,9 @@ mod proportion;
 mod stripes;
 
 pub use file::IdaFile;
-pub use fragility::{Bands, Count, Fit, Fragility, FragilityOptions, Goodness, Layout, MOST_REPLICATES, NoLayout};
+pub use fragility::{
+    Bands, Count, Fit, Fragility, FragilityOptions, Goodness, Layout, MOST_REPLICATES, NoLayout, TooFewReplicates,
+};
 pub use ida::{Ida, IdaError, IdaOutcome, IdaRun, RunError, StudyRecord};
 pub use observation::{Cells, DEFAULT_STATES, LimitState, NoLimitState, Observation, WrongCell, record_columns};
 pub use proportion::Proportion;

@@ -148,6 +148,14 @@ impl LimitState {
         }
     }
 
+    /// Whether the column of a run has the block of the state. Runs of columns without it say nothing of the state.
+    pub(super) fn concerns(&self, run: &Observation) -> bool {
+        match *self {
+            LimitState::Peak { block: Some(block), .. } => run.peaks.is_empty() || run.peaks.len() >= block,
+            _ => true,
+        }
+    }
+
     /// Whether a run reached the state. `None` for a failed run, and for an undecided run that had not reached the state. `None` as well if the
     /// column is not lost and the observation has no such block or no slides.
     pub fn is_reached(&self, run: &Observation) -> Option<bool> {

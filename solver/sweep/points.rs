@@ -197,6 +197,16 @@ pub enum PointError {
     /// The scene of the point is not valid.
     #[error(transparent)]
     Scene(Box<SceneFileError>),
+    /// The value of an axis is not valid in the scene.
+    #[error("axis `{axis}`: {problem}; {remedy}")]
+    Axis {
+        /// Key of the axis.
+        axis: String,
+        /// What is wrong.
+        problem: String,
+        /// What to do.
+        remedy: String,
+    },
     /// The run of the point could not be finished.
     #[error(transparent)]
     Solve(#[from] SolveError),
@@ -251,7 +261,7 @@ impl<'s> Worker<'s> {
     }
 
     fn row(&mut self, index: usize) -> Row {
-        let result = self.run(index);
+        let result = self.run(index).map_err(|error| self.sweep.of_axis(error));
         if result.is_err() {
             self.scene = None;
         }
@@ -292,6 +302,17 @@ impl<'s> Worker<'s> {
 }
 
 impl Sweep {
+    /// The error of a point as that of the axis that has the value at fault; the base scene, whose line it names, may have a sound one.
+    fn of_axis(&self, error: PointError) -> PointError {
+        let PointError::Scene(scene) = &error else { return error };
+        match &**scene {
+            SceneFileError::Scene { key, problem, remedy, .. } if self.axes.iter().any(|axis| axis.key == *key) => {
+                PointError::Axis { axis: key.clone(), problem: problem.clone(), remedy: remedy.clone() }
+            }
+            _ => error,
+        }
+    }
+
     /// Number of points.
     pub fn len(&self) -> usize {
         let lengths = |axes: &[Axis]| axes.iter().map(|axis| axis.values.len()).collect::<Vec<_>>();

@@ -14,7 +14,7 @@ use rocking::intensity::Intensity;
 use rocking::studies::{self, Cells, DEFAULT_STATES, Fit, Fragility, FragilityOptions, LimitState, Observation};
 use rocking::sweep::ERROR;
 use serde::Serialize;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -49,7 +49,11 @@ pub fn fragility(request: &arguments::Fragility) -> Result<(), Failure> {
     (options.replicates, options.confidence, options.seed) =
         (request.replicates as usize, request.confidence, request.seed);
     options.layout = request.layout;
+    options.check().map_err(Failure::Bands)?;
     let out = request.out.clone().unwrap_or_else(|| tables(&request.table)[0].clone());
+    if Format::of(&out)? != Format::Csv {
+        return Err(Failure::OnlyCsv(out));
+    }
     let outputs = [out.clone(), shares_beside(&out)].into_iter().chain(request.plot.clone());
     output::check(&outputs.collect::<Vec<_>>(), std::slice::from_ref(&request.table))?;
     let conclusions = Conclusions::of(&runs, &measure, &states, &options);
@@ -88,10 +92,17 @@ pub fn read(table: &Path, measure: Option<&str>, conditions: &[(String, String)]
     let conditions = columns.conditions(conditions).map_err(refused)?;
     let mut values = vec![BTreeSet::new(); columns.others.len()];
     let (mut runs, mut first_error, mut cut) = (Vec::new(), None, 0);
+    let mut seen = HashSet::new();
     for (number, row) in found.rows.enumerate() {
         let row = row.map_err(at(Failure::Study, table))?;
         if !conditions.iter().all(|(place, value)| is_value(&row[*place], value)) {
             continue;
+        }
+        // Studies with other records may be pooled: their runs have the same numbers.
+        let settings = || row.iter().take(columns.outcome).map(String::from).collect::<Vec<_>>();
+        if columns.has_index && !seen.insert(settings()) {
+            let problem = format!("row {}: the run stands in a row above as well; give each run once", number + 1);
+            return Err(refused(problem));
         }
         for (values, place) in values.iter_mut().zip(&columns.others) {
             values.insert(row[*place].to_string());
@@ -138,6 +149,8 @@ fn is_value(cell: &str, value: &str) -> bool {
 struct Columns {
     /// Header of the table.
     names: Vec<String>,
+    /// Whether the table numbers its runs.
+    has_index: bool,
     /// Columns whose cells name the record of a run.
     records: Vec<usize>,
     /// The level of the measure.
@@ -182,6 +195,7 @@ impl Columns {
             |place: &usize| *place != level && !records.contains(place) && !NO_AXES.contains(&names[*place].as_str());
         Ok(Columns {
             others: (0..outcome).filter(is_other).collect(),
+            has_index: column("index").is_some(),
             records,
             level,
             outcome,

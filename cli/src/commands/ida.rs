@@ -38,7 +38,8 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     let IdaFile { ida, states, options, inputs, .. } = &IdaFile::from_file(&request.file).map_err(Failure::scene)?;
     let stripes_file = beside(&out.with_extension("csv"), "stripes");
     let [curves_file, shares_file] = fragility::tables(out);
-    let mut outputs = vec![out.clone(), stripes_file.clone(), curves_file, shares_file];
+    let derived = [stripes_file.clone(), curves_file, shares_file];
+    let mut outputs = [vec![out.clone()], derived.to_vec()].concat();
     let pictures = request.plot.as_ref().map(|picture| [picture.clone(), beside(picture, "fragility")]);
     outputs.extend(pictures.iter().flatten().cloned());
     output::check(&outputs, inputs)?;
@@ -54,6 +55,10 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     table.fill(ida.len(), FIRST_BATCH, &threads, &bar, |batch| {
         ida.lines(batch, |run| cells(ida, &run, columns.len()))
     })?;
+    // What was made of an earlier table of this name must not stand beside the new one.
+    for table in &derived {
+        output::remove(table, inputs)?;
+    }
     table.close(format, &columns)?;
 
     // What follows is made of the table, so that it is the same whether or not the study was interrupted.

@@ -14,6 +14,7 @@ from . import _rocking
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from ._motion import Motion, MotionLike
     from ._scene import Column
 
 Array = npt.NDArray[np.float64]
@@ -45,6 +46,8 @@ class Record:
             raise ValueError("accel has masked samples; fill them, or cut the record there")
         if np.iscomplexobj(accel):
             raise ValueError("accel is complex; give real accelerations [m/s²]")
+        if np.asarray(accel).dtype.kind in "mM":
+            raise TypeError("accel has times; give accelerations [m/s²]")
         samples = np.ascontiguousarray(accel, dtype=np.float64)
         if samples.ndim != 1:
             raise ValueError(f"accel has the shape {samples.shape}; give one acceleration per sample")
@@ -119,8 +122,15 @@ class Record:
         if scale is not None:
             return Record._of(self._record.scaled(float(scale)))
         ((measure, value),) = size.items()
+        if column is not None and not hasattr(column, "_native"):
+            raise TypeError(f"column is of {type(column).__name__}; give a Column")
         scene = None if column is None else column._native()
         return Record._of(self._record.scaled_to(measure, float(value), gravity, scene, sa_period, sa_damping))
+
+    def __add__(self, other: "MotionLike") -> "Motion":
+        from ._motion import total
+
+        return total(self, other)
 
     def trimmed(self, start: float, stop: float) -> "Record":
         """The samples from ``start`` to ``stop``, both included, counted from the first sample [s]."""

@@ -329,6 +329,8 @@ class Scene:
     @classmethod
     def from_dict(cls, keys: Mapping[str, Any], *, file: str | os.PathLike[str] = WITHOUT_FILE) -> "Scene":
         """Reads the keys of a scene file as a nested dictionary."""
+        if not isinstance(keys, Mapping):
+            raise TypeError(f"keys are of {type(keys).__name__}; give a dictionary of the keys of a scene file")
         return cls._of(copied(keys), os.fspath(file))
 
     def replace(
@@ -445,7 +447,10 @@ def _dotted(arguments: Mapping[str, Any]) -> Iterable[tuple[str, Any]]:
             known = ", ".join([*ARGUMENTS, "keys"])
             raise TypeError(f"there is no argument `{name}`; arguments are {known}")
         yield ARGUMENTS[name], value
-    yield from arguments.get("keys", {}).items()
+    others = arguments.get("keys", {})
+    if not isinstance(others, Mapping):
+        raise TypeError(f"keys are of {type(others).__name__}; give a dictionary of dotted names")
+    yield from others.items()
 
 
 def _files(motion: Any) -> Iterable[str]:

@@ -183,6 +183,8 @@ class Study:
     """
 
     def __init__(self, table: pd.DataFrame, measure: str | None = None) -> None:
+        if not isinstance(table, pd.DataFrame):
+            raise TypeError(f"table is of {type(table).__name__}; give a DataFrame of runs")
         self.table = table
         if measure is None:
             known = [name for name in map(str, table.columns) if _rocking.measure_label(_last(name)) is not None]
@@ -193,6 +195,15 @@ class Study:
         for name in (measure, "outcome"):
             if name not in table.columns:
                 raise StudyError(f"the table has no column `{name}`; it has {', '.join(map(str, table.columns))}")
+        if "index" in table.columns:
+            # Studies with other records may be pooled: their runs have the same numbers.
+            settings = list(table.columns[: list(table.columns).index("outcome")])
+            again = table["index"][table["index"].notna() & table.duplicated(settings)]
+            if len(again):
+                raise StudyError(f"run {again.iloc[0]} stands in the table twice; give each run once")
+        blank = np.flatnonzero(table["outcome"].isna())
+        if len(blank):
+            raise StudyError(f"row {blank[0] + 1} has no outcome; give the table as it was made, in which a run that failed has the outcome `error`")
         self.measure = measure
         self.states: list[str] = []
         self._options: dict[str, Any] = {}
@@ -273,6 +284,8 @@ class Study:
         layout : str
             ``stripes`` or ``cloud``; as the data have it unless given.
         """
+        if not isinstance(state, str):
+            raise TypeError(f"state is of {type(state).__name__}; give the text of one limit state, such as \"overturned\"")
         runs = self._runs
         kind = state.strip().split("_")[0].split()[0] if state.strip() else ""
         if kind.startswith("peak") and runs.peaks.shape[1] == 0:

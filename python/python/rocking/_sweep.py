@@ -57,6 +57,8 @@ class Sweep:
         combine: str = "cartesian",
         sampling: Mapping[str, Any] | None = None,
     ) -> None:
+        if not isinstance(scene, Scene):
+            raise TypeError(f"scene is of {type(scene).__name__}; give a Scene")
         self._source: tuple[Any, ...] = (scene, copied(axes), ask, combine, copied(sampling))
         drawn = {} if sampling is None else {"sampling": dict(sampling)}
         text = _rocking.to_toml({"ask": ask, "combine": combine, **drawn, "axes": dict(axes)})

@@ -92,6 +92,8 @@ def frame(plan: Plan, *, rows: range | None = None, partition_size: int | None =
     from dask.delayed import delayed
 
     asked = range(len(plan)) if rows is None else rows
+    if not isinstance(asked, range):
+        raise TypeError(f"rows are of {type(asked).__name__}; give a range")
     if asked.step != 1 or not 0 <= asked.start < asked.stop <= len(plan):
         raise ValueError(f"rows = {asked} are no range of the {len(plan)} rows of the study")
     size = globals()["partition_size"](plan, threads=threads) if partition_size is None else partition_size
