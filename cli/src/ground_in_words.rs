@@ -1,7 +1,7 @@
 //! Ground motion in words, from its description as the library serialises it (in `summary.json`).
 //!
-//! New kinds of motion need no change here: name, amplitude and frequency, which most have, are put into words; every other number of
-//! a description is listed under its own name.
+//! Amplitude and frequency, which most motions have, are put into words; every other number of a description is listed under its own name. A new kind
+//! of motion is called by its name in scene files, unless it has another one here.
 
 use crate::number::significant;
 use serde_json::{Map, Value};

@@ -1,4 +1,4 @@
-//! The list of methods. An explicit method is added by a file with its [`Tableau`](super::explicit::Tableau) in `tableaus/` and one line here.
+//! The list of methods. An explicit method is a file with its [`Tableau`](super::explicit::Tableau) in `tableaus/`, declared there, and one line of the list here.
 
 use super::tableaus::{
     dop853::Dop853, dormand_prince54::DormandPrince54, kutta_merson::KuttaMerson, runge_kutta4::RungeKutta4,

@@ -1,4 +1,4 @@
-//! Tableaus of the explicit methods, a file for each. A method needs a line here, and an import and an entry in [`methods`](super::methods).
+//! Tableaus of the explicit methods, a file for each. A method is declared here, and stands in the list of [`methods`](super::methods).
 
 pub mod dop853;
 pub mod dormand_prince54;
