@@ -25,7 +25,7 @@ pub enum Format {
 
 impl Format {
     /// Extensions of other formats, in which no table is written.
-    const OTHERS: [&str; 10] = ["xlsx", "xls", "ods", "gz", "zip", "json", "feather", "arrow", "h5", "toml"];
+    const OTHERS: [&str; 9] = ["xlsx", "xls", "ods", "gz", "zip", "json", "feather", "arrow", "h5"];
 
     /// Format by the extension of a file: Parquet for `.parquet`, otherwise CSV.
     ///
