@@ -49,7 +49,7 @@ impl<O: Output> Step<'_, '_, O> {
                 Some((s, Guard::Jam)) => s - AT_ONCE * self.t.max(1.0) / self.h,
                 Some((s, _)) => s,
             };
-            if limit <= 0.0 {
+            if limit < 0.0 {
                 break;
             }
             let found = match (guard, self.output.series()) {
