@@ -99,7 +99,7 @@ pub fn read(table: &Path, measure: Option<&str>, conditions: &[(String, String)]
             continue;
         }
         // Studies with other records may be pooled: their runs have the same numbers.
-        let settings = || row.iter().take(columns.outcome).map(String::from).collect::<Vec<_>>();
+        let settings = || row.iter().take(columns.outcome).collect::<Vec<_>>().join(",");
         if columns.has_index && !seen.insert(settings()) {
             let problem = format!("row {}: the run stands in a row above as well; give each run once", number + 1);
             return Err(refused(problem));
