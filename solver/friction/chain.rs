@@ -17,7 +17,7 @@ use crate::mechanics::kinematics::{Vec2, lower};
 use crate::numerics::per_block::PerBlock;
 use std::ops::Range;
 
-/// Velocities of the blocks; in an answer to a question about accelerations, their accelerations, with units per second more.
+/// Velocities of the blocks. Where accelerations are asked for, these stand in the same places `[m/s²]`, `[rad/s²]`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BlockMotion {
     /// Velocities of the centroids `[m/s]`.

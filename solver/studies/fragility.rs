@@ -69,7 +69,7 @@ pub struct FragilityOptions {
 
 /// Too few replicates for percentiles.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("{replicates} replicate(s) have no bands of {:.0} %; give 0 for no bands, or at least {least}", 100.0 * confidence)]
+#[error("{replicates} replicate(s) have no bands of {} %; give 0 for no bands, or at least {least}", (1e5 * confidence).round() / 1e3)]
 pub struct TooFewReplicates {
     /// Number of replicates.
     pub replicates: usize,

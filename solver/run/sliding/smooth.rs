@@ -17,8 +17,8 @@ use crate::scene::DynamicsSource;
 use rocking_ground::Segment;
 use std::cell::OnceCell;
 
-/// Forces beyond which a motion jams, as multiples of what weight, ground and rates account for.
-const FORCE_OF_JAM: f64 = 1e6;
+/// Forces and accelerations beyond which a motion jams, as multiples of what weight, ground and rates account for.
+pub const FACTOR_OF_JAM: f64 = 1e6;
 
 /// Generated equations of a set of states.
 enum Programs {
@@ -132,13 +132,13 @@ impl<'p> Smooth<'p> {
     /// Why no step can be taken from a state at a time `[s]`; `step` is the last one that was tried `[s]`.
     ///
     /// # Errors
-    /// [`SolveError::StepTooSmall`], unless the motion jams: some normal force exceeds `FORCE_OF_JAM` times the forces at work, and the rows hardly
+    /// [`SolveError::StepTooSmall`], unless the motion jams: some normal force exceeds `FACTOR_OF_JAM` times the forces at work, and the rows hardly
     /// determine it any more (Painlevé).
     pub fn without_step(&mut self, t: f64, x: &[f64], step: f64) -> Result<SlidingEnded, SolveError> {
         let ground = Ground::at(self.segment, t, self.gravity);
         let mut moment = self.moment(self.configuration(x));
         let largest = self.answer(t, &mut moment).contacts.iter().fold(0.0f64, |most, own| most.max(own.normal.abs()));
-        if largest > FORCE_OF_JAM * self.column.mass() * acceleration_scale(self.column, &moment.configuration, ground)
+        if largest > FACTOR_OF_JAM * self.column.mass() * acceleration_scale(self.column, &moment.configuration, ground)
         {
             return Ok(SlidingEnded::Jam);
         }

@@ -1,6 +1,7 @@
 //! Transitions: from `x⁻` at the end of a stretch to `x⁺`, by the laws of contact with friction.
 
 use super::contacts::{self, Resolution, touching};
+use super::smooth::FACTOR_OF_JAM;
 use super::state::{RunEnd, SlidingEnded, SlidingState};
 use crate::column::Column;
 use crate::friction::chain::{Chain, Rates};
@@ -13,9 +14,6 @@ use crate::mechanics::kinematics::{lower, relative};
 use crate::numerics::per_block::PerBlock;
 use crate::response::{EventKind, Impulse};
 use crate::run::problem::Problem;
-
-/// Accelerations beyond which a motion jams, as multiples of those at work.
-const ACCELERATION_OF_JAM: f64 = 1e6;
 
 /// A transition of a run: what the laws of contact have decided about `x⁻`.
 pub struct SlidingTransition {
@@ -423,7 +421,7 @@ impl<'p> PendingTransition<'p> {
         let least = self.resolution.lowest_hop;
         let ground = self.problem.ground_at(self.segment, self.t);
         // Larger accelerations are those of blocks about to jam, which stop motions of any speed in no time: by impulses, not by the end of a hop.
-        let most = ACCELERATION_OF_JAM * acceleration_scale(self.column(), &self.now, ground);
+        let most = FACTOR_OF_JAM * acceleration_scale(self.column(), &self.now, ground);
         let returns = |rate: f64, change: f64, least: f64, most: f64| {
             rate != 0.0 && rate * change < 0.0 && rate * rate < 2.0 * change.abs().min(most) * least
         };
