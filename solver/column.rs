@@ -552,7 +552,7 @@ pub struct Stack {
 }
 
 impl Stack {
-    /// `α = atan(c / h_P)` `[rad]`, with `c` the lever of the weight.
+    /// `α = atan(c / h_P)` `[rad]`, with `c` the lever of the weight, [`Self::half_width`].
     pub fn slenderness(&self) -> f64 {
         libm::atan2(self.half_width, self.centroid_height)
     }

@@ -59,6 +59,7 @@ mod friction;
 pub mod intensity;
 pub mod json;
 mod mechanics;
+mod names;
 mod numerics;
 pub mod response;
 mod row_times;

@@ -3,6 +3,7 @@
 use crate::column::{Column, Shape};
 use crate::friction::{self, Friction};
 use crate::mechanics::generated::Equations;
+use crate::names::named;
 pub use crate::numerics::ode::methods::Method;
 use crate::numerics::per_block::PerBlock;
 use crate::row_times::{self, RowTimes};
@@ -268,19 +269,7 @@ pub enum OutputColumn {
     Top,
 }
 
-impl OutputColumn {
-    /// Names in scene files.
-    pub const NAMES: [&str; 2] = ["relative", "top"];
-
-    /// The columns of this name.
-    pub fn parse(name: &str) -> Option<OutputColumn> {
-        match name {
-            "relative" => Some(OutputColumn::Relative),
-            "top" => Some(OutputColumn::Top),
-            _ => None,
-        }
-    }
-}
+named!(OutputColumn: Relative = "relative", Top = "top");
 
 /// A fault of a scene; the file reader finds the same with lines and keys.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -413,7 +413,7 @@ pub struct Fragility {
     #[arg(long = "where", value_name = "COLUMN=VALUE", value_parser = condition)]
     pub conditions: Vec<(String, String)>,
     /// Whether several runs share each level (stripes) or none (cloud); as the table has it unless given.
-    #[arg(long, value_name = "LAYOUT", value_parser = PossibleValuesParser::new(Layout::NAMES).try_map(|name| name.parse::<Layout>()))]
+    #[arg(long, value_name = "LAYOUT", value_parser = PossibleValuesParser::new(Layout::NAMES).try_map(|name| Layout::parse(&name).ok_or("no such layout")))]
     pub layout: Option<Layout>,
     /// Sets of resampled records for the bands; 0 for none.
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(0..=MOST_REPLICATES as i64))]

@@ -44,7 +44,7 @@ pub fn main_with<T: Into<OsString> + Clone>(words: impl IntoIterator<Item = T>) 
     }
 }
 
-/// The command line. A negative number is a value of the option before it, whose range says what is wrong, and no option of its own.
+/// The command line. `-5` after an option is read as its value, so that the error names the range of the option.
 fn command() -> clap::Command {
     Arguments::command().mut_subcommands(|command| {
         command.mut_args(|argument| {

@@ -24,6 +24,14 @@ pub fn fixed(value: f64, digits: usize) -> String {
     if text == "-0" { "0".into() } else { text }
 }
 
+/// Lists of numbers with their names and units, those of zeros left out; `None` if all are zero.
+pub fn state(lists: &[(&str, &[f64], &str)]) -> Option<String> {
+    let numbers = |list: &[f64]| list.iter().map(|value| significant(*value, 5)).collect::<Vec<_>>().join(", ");
+    let moved = lists.iter().filter(|(_, list, _)| list.iter().any(|value| *value != 0.0));
+    let parts: Vec<String> = moved.map(|(name, list, unit)| format!("{name} = {} {unit}", numbers(list))).collect();
+    (!parts.is_empty()).then(|| format!("{}, base first", parts.join("; ")))
+}
+
 /// A share of one in percent. At most one decimal below 9.95 % in magnitude and between 99 and 100 %, otherwise none.
 /// A share just above zero is `< 0.1 %`, a share just below one is `> 99.9 %`.
 pub fn percent(share: f64) -> String {

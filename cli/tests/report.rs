@@ -527,3 +527,49 @@ mod in_chromium {
         assert_eq!(browser.console, [""; 0]);
     }
 }
+
+/// Events name the interfaces that close; with friction, others stay open at angles that are rounding.
+#[test]
+fn impacts_with_friction_are_counted_at_the_interfaces_that_events_name() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = "friction = 0.5\n[column]\nblocks = 5\ndiameter = 0.9\ntop_diameter = 0.7\nheight = 5.0\ndensity = 2500\n\
+        [initial]\nslide = [0.0, 0.03, -0.02, 0.01, 0.0]\n[excitation.horizontal]\nkind = \"synthetic\"\npga_g = 0.8\nduration = 5\n[solver]\nt_end = 6\n";
+    let run = run_text(folder.path(), "drums", scene);
+    let page = page(&run);
+    let events: serde_json::Value =
+        serde_json::from_str(&std::fs::read_to_string(run.join("events.json")).expect("written")).expect("JSON");
+    let mut at = [0; 5];
+    let mut impacts = 0;
+    for event in events.as_array().expect("a list") {
+        if !["impact", "landing"].contains(&event["kind"].as_str().expect("a kind")) {
+            continue;
+        }
+        impacts += 1;
+        let named = match event["interfaces"].as_array() {
+            Some(several) => several.clone(),
+            None => vec![event["interface"].clone()],
+        };
+        named.iter().for_each(|number| at[number.as_u64().expect("a number") as usize - 1] += 1);
+    }
+    assert!(impacts > 100, "{impacts}");
+    for (interface, count) in (1..).zip(at) {
+        assert!(page.contains(&format!("<li>interface {interface}: {count}</li>")), "{interface}: {count}");
+    }
+    assert!(page.contains("other events, by their first change: "));
+}
+
+#[test]
+fn a_run_that_ends_at_its_start_has_figures_and_a_page_of_numbers() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let block = "[[block]]\nwidth = 0.6\nheight = 1.0\nmass = 1000\n";
+    let scene = format!(
+        "friction = 0.5\n{block}{block}[initial]\nx = [0.0, 0.9]\ny = [0.5, 1.6]\nvx = [0.0, 0.1]\nvy = [0.0, 0.0]\n[solver]\nt_end = 1e-9\n"
+    );
+    let run = run_text(folder.path(), "start", &scene);
+    assert!(page(&run).contains("x = 0, 0.9 m; y = 0.5, 1.6 m; vx = 0, 0.1 m/s"));
+    let scene = scene.replace("1.6]", "1.5]").replace("t_end = 1e-9", "t_end = 1");
+    let run = run_text(folder.path(), "lost", &scene);
+    common::succeeds(folder.path(), &["plot", "lost"]);
+    let figure = std::fs::read_to_string(run.join("time-history.svg")).expect("drawn");
+    assert!(!page(&run).contains("NaN") && !figure.contains("NaN"));
+}

@@ -13,7 +13,7 @@ use pyo3::types::{PyDict, PyList};
 use rocking::Fate;
 use rocking::intensity::Intensity;
 use rocking::studies::{
-    self, Cells, Fragility, FragilityOptions, IdaFile, IdaOutcome, Layout, LimitState, MOST_REPLICATES, NoLayout,
+    self, Cells, Fragility, FragilityOptions, IdaFile, IdaOutcome, Layout, LimitState, MOST_REPLICATES,
     Observation, RunError,
 };
 use rocking::sweep::ERROR;
@@ -165,7 +165,7 @@ impl Ida {
         let number = |of: fn(&IdaOutcome) -> Option<f64>| {
             Values::Number(found().map(|found| found.and_then(of).unwrap_or(f64::NAN)).collect())
         };
-        let fates = Names::of(Fate::ALL.map(Fate::name).into_iter().chain([ERROR]));
+        let fates = Names::of(Fate::NAMES.into_iter().chain([ERROR]));
         let mut columns = vec![
             Column::new("index", Values::Index(indices)),
             Column::new("record", names),
@@ -293,8 +293,9 @@ pub fn fragility(
     (options.replicates, options.confidence, options.seed) = (replicates, confidence, seed);
     options.check().map_err(|few| PyValueError::new_err(few.to_string()))?;
     let named = |name: &str| {
-        name.parse()
-            .map_err(|refused: NoLayout| PyValueError::new_err(format!("there is no layout `{name}`; {refused}")))
+        Layout::parse(name).ok_or_else(|| {
+            PyValueError::new_err(format!("there is no layout `{name}`; give {}", Layout::NAMES.join(" or ")))
+        })
     };
     options.layout = layout.map(named).transpose()?;
     // One part with one item, which computes its bands on the threads of the pool.

@@ -147,7 +147,7 @@ impl Sweep {
                 (_, CellKind::Word) => {
                     let words = match field {
                         Field::Trust => vec![DETERMINED, NOT_DETERMINED],
-                        _ => Fate::ALL.map(Fate::name).into_iter().chain([ERROR]).collect(),
+                        _ => Fate::NAMES.into_iter().chain([ERROR]).collect(),
                     };
                     Names::of(words).column(cells().map(|cell| if let Cell::Word(word) = cell { word } else { "" }))
                 }

@@ -32,7 +32,7 @@ pub struct SeriesSpan<'s> {
 pub struct GuardLimits<'s> {
     /// Static coefficients of friction.
     pub fixed: &'s [f64],
-    /// Violation of a condition on forces that counts as rounding, per unit of the mass above the interface `[m/s²]`.
+    /// Tolerance of guards of forces, per unit of the mass above the interface `[m/s²]`: smaller violations are rounding.
     pub slack: f64,
     /// `[rad]`
     pub overturn_angle: f64,

@@ -125,8 +125,8 @@ pub fn value(guard: Guard, column: &Column, now: &Configuration, overturn_angle:
 /// earliest.
 pub const TIP_SLACK: f64 = 2.0;
 
-/// Slack of the guard of a friction cone with this coefficient, over that of a normal force that vanishes: the tangential force may vanish at any ratio up
-/// to the coefficient.
+/// Slack of the guard of a friction cone with this coefficient, divided by the slack of the guard of the normal force. It grows with the coefficient, as
+/// both forces may vanish together at any ratio up to it.
 pub fn cone_slack(coefficient: f64) -> f64 {
     1.0 + 2.0 * coefficient
 }

@@ -19,13 +19,13 @@ pub struct Geometry<S> {
     pub mass: Vec<S>,
     /// Centroidal moments of inertia `[kg m²]`, length N.
     pub inertia: Vec<S>,
-    /// Centroids of links that are general rigid bodies, to the right of the centre of the contact below `[m]`; empty for rectangles.
+    /// Per link, lateral distance from the centre of its lower contact to its centroid, rightwards `[m]`; empty for rectangles.
     pub centroid_lateral: Vec<S>,
-    /// These centroids, upwards of the same centre `[m]`; empty for rectangles.
+    /// Per link, axial distance from the centre of its lower contact to its centroid, upwards `[m]`; empty for rectangles.
     pub centroid_axial: Vec<S>,
-    /// Centres of contacts above links that are general rigid bodies, to the right of the centre of the contact below `[m]`; empty for rectangles.
+    /// Per link, lateral distance from the centre of its lower contact to the centre of its upper one, rightwards `[m]`; empty for rectangles.
     pub top_lateral: Vec<S>,
-    /// These contact centres, upwards of the same centre `[m]`; empty for rectangles.
+    /// Per link, axial distance from the centre of its lower contact to the centre of its upper one, upwards `[m]`; empty for rectangles.
     pub top_axial: Vec<S>,
 }
 

@@ -1,6 +1,7 @@
 //! What became of a column, in one word.
 
 use super::{Response, StopReason};
+use crate::names::named;
 
 /// What became of the column of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,18 +24,17 @@ pub enum Fate {
     NotDetermined,
 }
 
-impl Fate {
-    /// All of them.
-    pub const ALL: [Fate; 7] = [
-        Fate::NoUplift,
-        Fate::Slides,
-        Fate::Rocks,
-        Fate::Overturns,
-        Fate::Collapses,
-        Fate::Undetermined,
-        Fate::NotDetermined,
-    ];
+named!(
+    Fate: NoUplift = "no-uplift",
+    Slides = "slides",
+    Rocks = "rocks",
+    Overturns = "overturns",
+    Collapses = "collapses",
+    Undetermined = "undetermined",
+    NotDetermined = "not-determined",
+);
 
+impl Fate {
     /// What became of the column of a run.
     pub fn of(response: &Response) -> Fate {
         let rocked = || response.time_in_mode.iter().any(|(mode, time)| mode != "rest" && *time > 0.0);
@@ -48,11 +48,6 @@ impl Fate {
         }
     }
 
-    /// The fate of this name, as [`Fate::name`] gives it.
-    pub fn named(name: &str) -> Option<Fate> {
-        Fate::ALL.into_iter().find(|fate| fate.name() == name)
-    }
-
     /// Whether the column is lost: overturned, or collapsed.
     pub fn is_lost(self) -> bool {
         matches!(self, Fate::Overturns | Fate::Collapses)
@@ -61,18 +56,5 @@ impl Fate {
     /// Whether the column is known to stand or to be lost: a motion followed from the laws of contact to its end, and the verdict is determined.
     pub fn is_decided(self) -> bool {
         !matches!(self, Fate::Undetermined | Fate::NotDetermined)
-    }
-
-    /// As in a table: `no-uplift`, `rocks`, `overturns`; with friction also `slides`, `collapses`, `undetermined`; of studies `not-determined`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Fate::NoUplift => "no-uplift",
-            Fate::Rocks => "rocks",
-            Fate::Overturns => "overturns",
-            Fate::Slides => "slides",
-            Fate::Collapses => "collapses",
-            Fate::Undetermined => "undetermined",
-            Fate::NotDetermined => "not-determined",
-        }
     }
 }

@@ -82,14 +82,13 @@ impl SlidingReport {
         self.way_slid[interface] > 0.0 || self.flights[interface] > 0
     }
 
-    /// Error of the energy balance, relative to the work of the ground or, where that is the rounding of other terms, to the largest of these; `None` where
-    /// nothing slid or flew, or only the outcome was wanted.
+    /// Error of the energy balance, relative to its largest term, of the ground the energy exchanged; `None` where nothing slid or flew, or only the outcome
+    /// was wanted.
     pub fn balance(&self) -> Option<f64> {
         let SlidingReport { ground_work, friction_work, impact_losses, ground_exchange, energy_change, .. } = *self;
         let open = ground_work + friction_work - impact_losses - energy_change;
         let largest = friction_work.abs().max(impact_losses.abs()).max(energy_change.abs()).max(ground_exchange);
-        let scale = if ground_work.abs() > 1e-9 * largest { ground_work.abs() } else { largest };
-        (self.is_any() && scale > 0.0).then(|| (open / scale).abs())
+        (self.is_any() && largest > 0.0).then(|| (open / largest).abs())
     }
 
     /// What a user must know before believing a run with friction.

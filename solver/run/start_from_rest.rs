@@ -174,7 +174,7 @@ impl Scene {
         self.first_below_zero(|interface, side| RestGuard::cone(fixed[interface], side))
     }
 
-    /// The first instant at which the guard of one side of each interface falls below zero at rest `[s]`.
+    /// For each interface, the first time at rest at which the guard of either side is below zero `[s]`; `None` if there is none.
     fn first_below_zero(&self, guard: impl Fn(usize, Interface) -> RestGuard) -> Vec<Option<f64>> {
         let (segments, gravity) = (self.excitation.segments(self.options.t_end), self.column.gravity());
         let in_segment = |segment: &Segment, interface: usize| {

@@ -169,7 +169,8 @@ impl Phase {
         first
     }
 
-    /// The place, 0 to `reach`, at which the closed interface of this index opens. The step has the length and end `[h, end]` `[s]`.
+    /// Fraction of the step, at most `reach`, at which a closed interface opens; `index` counts the closed interfaces. `h` is the length of the step and
+    /// `end` the time at its end `[s]`.
     fn opening_before(&mut self, problem: &Problem, [h, end]: [f64; 2], index: usize, reach: f64) -> Option<f64> {
         let is_held = self.t < self.lengths.held_until;
         let opening =

@@ -145,6 +145,10 @@ pub(super) fn refused(root: &Table, fault: &SceneError) -> Wrong {
         problem = format!("{} = {problem}", key.rsplit('.').next().unwrap_or_default());
         key = given;
     }
+    // The default interval stands in no line; the number of its rows follows from the end of the run.
+    if key == "output.dt" && !root.has("output") {
+        key = "solver.t_end".into();
+    }
     Wrong { place: root.find(&key), key, problem, remedy, cause: Cause::Value }
 }
 

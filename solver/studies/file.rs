@@ -1,6 +1,6 @@
 //! Study files: a scene, records, levels of a measure, and limit states.
 
-use super::fragility::{FragilityOptions, Layout, MOST_REPLICATES, NoLayout, some_of};
+use super::fragility::{FragilityOptions, Layout, MOST_REPLICATES, some_of};
 use super::ida::{DEFAULT_FREE_SWING, Ida, IdaError, StudyRecord};
 use super::observation::{DEFAULT_STATES, LimitState, NoLimitState};
 use crate::column::Column;
@@ -317,8 +317,8 @@ fn fragility(root: &mut Table, scene: &Scene) -> Result<(Vec<LimitState>, Fragil
     })?;
     options.seed = table.whole("seed", 0)?.unwrap_or(options.seed);
     if let Some((name, _)) = table.text("layout")? {
-        let layout = name.parse().map_err(|_: NoLayout| table.no_such("layout", "layout", &name, &Layout::NAMES))?;
-        options.layout = Some(layout);
+        let layout = Layout::parse(&name);
+        options.layout = Some(layout.ok_or_else(|| table.no_such("layout", "layout", &name, &Layout::NAMES))?);
     }
     table.close()?;
     Ok((states, options))

@@ -5,12 +5,12 @@
 
 use super::observation::{LimitState, Observation};
 use super::probit::{Maximum, Probit, Trial, fit};
+use crate::names::named;
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::Rng;
 use rayon::prelude::*;
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
-use std::str::FromStr;
 
 /// How levels are shared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -23,35 +23,10 @@ pub enum Layout {
     Cloud,
 }
 
-impl Layout {
-    /// The names of all layouts.
-    pub const NAMES: [&str; 2] = ["stripes", "cloud"];
-
-    /// The name of this layout.
-    pub fn name(self) -> &'static str {
-        Layout::NAMES[self as usize]
-    }
-}
+named!(Layout: Stripes = "stripes", Cloud = "cloud");
 
 /// Largest number of replicates; a larger one is taken for a mistake.
 pub const MOST_REPLICATES: usize = 1_000_000;
-
-/// The text was none of the layouts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("give {} or {}", Layout::NAMES[0], Layout::NAMES[1])]
-pub struct NoLayout;
-
-impl FromStr for Layout {
-    type Err = NoLayout;
-
-    fn from_str(name: &str) -> Result<Layout, NoLayout> {
-        match name {
-            "stripes" => Ok(Layout::Stripes),
-            "cloud" => Ok(Layout::Cloud),
-            _ => Err(NoLayout),
-        }
-    }
-}
 
 /// Options of a fragility.
 #[derive(Clone, Debug, PartialEq)]

@@ -19,7 +19,7 @@ mod stripes;
 
 pub use file::IdaFile;
 pub use fragility::{
-    Bands, Count, Fit, Fragility, FragilityOptions, Goodness, Layout, MOST_REPLICATES, NoLayout, TooFewReplicates,
+    Bands, Count, Fit, Fragility, FragilityOptions, Goodness, Layout, MOST_REPLICATES, TooFewReplicates,
 };
 pub use ida::{Ida, IdaError, IdaOutcome, IdaRun, RunError, StudyRecord};
 pub use observation::{Cells, DEFAULT_STATES, LimitState, NoLimitState, Observation, WrongCell, record_columns};

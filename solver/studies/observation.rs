@@ -67,7 +67,7 @@ pub struct Cells<'t> {
 #[non_exhaustive]
 pub enum WrongCell {
     /// No outcome of a run.
-    #[error("column `outcome`: `{found}` is no outcome of a run; outcomes are {}, and error", Fate::ALL.map(Fate::name).join(", "))]
+    #[error("column `outcome`: `{found}` is no outcome of a run; outcomes are {}, and error", Fate::NAMES.join(", "))]
     Outcome {
         /// The word.
         found: String,
@@ -87,7 +87,7 @@ impl TryFrom<Cells<'_>> for Observation {
         let Cells { record, level, outcome, trust, has_uplift, peaks, residual_slides } = cells;
         let fate = match outcome {
             None | Some(ERROR) => None,
-            Some(name) => Some(Fate::named(name).ok_or_else(|| WrongCell::Outcome { found: name.into() })?),
+            Some(name) => Some(Fate::parse(name).ok_or_else(|| WrongCell::Outcome { found: name.into() })?),
         };
         let is_open = match trust {
             None | Some("" | DETERMINED) => false,

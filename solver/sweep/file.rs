@@ -62,7 +62,7 @@ impl Sweep {
         let combine = match root.text("combine")? {
             None => Combine::Cartesian,
             Some((name, _)) => Combine::parse(&name)
-                .ok_or_else(|| root.no_such("combine", "way to combine axes", &name, &["cartesian", "paired"]))?,
+                .ok_or_else(|| root.no_such("combine", "way to combine axes", &name, &Combine::NAMES))?,
         };
         let ask = match root.text("ask")? {
             None => Ask::default(),

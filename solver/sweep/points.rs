@@ -7,6 +7,7 @@
 //! contact and set-up remain scalar, and the data of sixteen points displace each other from the cache.
 
 use crate::column::Column;
+use crate::names::named;
 use crate::response::{Fate, ModeName, Response};
 use crate::run::{Simulator, SolveError};
 use crate::scene::{Scene, Wanted};
@@ -50,6 +51,9 @@ pub enum Combine {
 }
 
 impl Combine {
+    /// Names in sweep files of those that a file may ask for.
+    pub const NAMES: [&str; 2] = ["cartesian", "paired"];
+
     /// The combination of this name in sweep files.
     pub fn parse(name: &str) -> Option<Combine> {
         match name {
@@ -79,23 +83,9 @@ pub enum Ask {
     Trust,
 }
 
+named!(Ask: Outcome = "outcome", Overturns = "overturns", Peaks = "peaks", Slides = "slides", Validity = "validity", Trust = "trust");
+
 impl Ask {
-    /// All questions.
-    pub const ALL: [Ask; 6] = [Ask::Outcome, Ask::Overturns, Ask::Peaks, Ask::Slides, Ask::Validity, Ask::Trust];
-
-    /// Their names.
-    pub const NAMES: [&str; 6] = ["outcome", "overturns", "peaks", "slides", "validity", "trust"];
-
-    /// The name in sweep files.
-    pub fn name(self) -> &'static str {
-        Ask::NAMES[self as usize]
-    }
-
-    /// The question of this name.
-    pub fn parse(name: &str) -> Option<Ask> {
-        Ask::ALL.into_iter().find(|ask| ask.name() == name)
-    }
-
     /// Whether largest angles are asked for, so that no run ends early.
     pub fn is_of_peaks(self) -> bool {
         matches!(self, Ask::Peaks | Ask::Slides | Ask::Validity | Ask::Trust)

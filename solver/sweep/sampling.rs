@@ -1,6 +1,7 @@
 //! Samples of the unit cube, one coordinate per distributed axis: independent, by Latin hypercube, or by a Sobol sequence. Each sample is computed
 //! without the others, and the same seed gives the same samples on every machine.
 
+use crate::names::named;
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::Rng;
 
@@ -17,25 +18,7 @@ pub enum SamplingMethod {
     Sobol,
 }
 
-impl SamplingMethod {
-    /// Names of all methods.
-    pub const NAMES: [&'static str; 3] = ["plain", "latin-hypercube", "sobol"];
-
-    /// The method of this name.
-    pub fn parse(name: &str) -> Option<SamplingMethod> {
-        match name {
-            "plain" => Some(SamplingMethod::Plain),
-            "latin-hypercube" => Some(SamplingMethod::LatinHypercube),
-            "sobol" => Some(SamplingMethod::Sobol),
-            _ => None,
-        }
-    }
-
-    /// Name of the method, as in a file.
-    pub fn name(self) -> &'static str {
-        Self::NAMES[self as usize]
-    }
-}
+named!(SamplingMethod: Plain = "plain", LatinHypercube = "latin-hypercube", Sobol = "sobol");
 
 /// Samples of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

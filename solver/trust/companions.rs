@@ -25,7 +25,7 @@ pub enum Change {
     Tolerance(f64),
     /// Ground motion, initial angles, rates and velocities multiplied by one plus this; blocks placed by their centroids keep their angles.
     Excitation(f64),
-    /// Half-widths multiplied by one plus this, of every second block by one less this; masses stay.
+    /// Half-widths multiplied by `1 + x` and `1 - x` on alternate blocks; masses are unchanged.
     Sizes(f64),
 }
 

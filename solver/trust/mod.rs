@@ -44,8 +44,14 @@ use std::ops::ControlFlow;
 /// Interval between the rows that are compared, as a share of `1/p` of the stack that rocks fastest.
 const ROW_INTERVAL_OF_P: f64 = 0.1;
 
-/// Largest number of rows of a run: the memory of ten runs stays below 30 MB.
-const MOST_ROWS: f64 = 5_000.0;
+/// Largest number of intervals between rows of a run: the memory of ten runs stays below 30 MB.
+const MOST_INTERVALS: usize = 5_000;
+
+/// Least number of intervals from the start of the run to its end.
+const LEAST_INTERVALS: f64 = 100.0;
+
+/// Least span of the rows of a run's companions, as a multiple of the time up to the end of the run: companions may last longer.
+const SPAN_OF_ROWS: f64 = 2.0;
 
 /// How far a run can be trusted, from its companions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -150,7 +156,7 @@ pub fn follow_run_observed(
     progress: impl Fn(f64) -> ControlFlow<()> + Sync,
 ) -> Result<Trust, SolveError> {
     let run = |scene: &Scene| Simulator::new().run_observed(scene, &progress);
-    let plain = compared(scene);
+    let plain = compared(scene, response.t_final);
     let own = run(&plain)?;
     let changed = |change: Change| (change, change.scene(&plain).map(|changed| run(&changed)));
     let runs: Vec<_> = Change::all(scene).into_par_iter().map(changed).collect();
@@ -204,18 +210,29 @@ pub fn follow_run_observed(
     })
 }
 
-/// The scene for the comparison: rows at short intervals, no forces.
-fn compared(scene: &Scene) -> Scene {
+/// The scene for the comparison with a run that ended at this time `[s]`: rows at short intervals, no forces.
+fn compared(scene: &Scene, run_end: f64) -> Scene {
     let mut plain = scene.clone();
     plain.options.wanted = Wanted::Everything;
     plain.options.record_forces = false;
-    plain.set_rows(Some(row_interval(&scene.column, scene.options.t_end)));
+    let (interval, t_end) = (row_interval(&scene.column, run_end), scene.options.t_end);
+    let rows = (t_end / interval).ceil() as usize;
+    plain.set_rows(Some(interval));
+    if rows > MOST_INTERVALS {
+        plain.output_dt = None;
+        plain.output_times = (0..=MOST_INTERVALS).map(|row| (row as f64 * interval).min(t_end)).collect();
+    }
     plain
 }
 
-fn row_interval(column: &Column, t_end: f64) -> f64 {
+/// Interval between the rows of a run that ended at this time, and of its companions `[s]`.
+fn row_interval(column: &Column, run_end: f64) -> f64 {
     let fastest = (0..column.len()).map(|interface| column.stack(interface).frequency_parameter()).fold(0.0, f64::max);
-    (ROW_INTERVAL_OF_P / fastest).min(0.01 * t_end).max(t_end / MOST_ROWS)
+    let usual = ROW_INTERVAL_OF_P / fastest;
+    if run_end == 0.0 {
+        return usual;
+    }
+    usual.min(run_end / LEAST_INTERVALS).max(SPAN_OF_ROWS * run_end / MOST_INTERVALS as f64)
 }
 
 /// The error of a run that the caller ended; `None` for any other failure, whose companion agrees with nothing.
@@ -284,10 +301,11 @@ impl Trust {
                 format!("of {count} companions {}", counts.join(", "))
             }
         };
-        format!(
-            "angles are known up to t = {:.4} s only; small changes grow {grown} times; {verdicts_in_words}",
-            self.horizon
-        )
+        let known = match self.horizon >= self.ends_at && self.verdict == Verdict::Stands {
+            true => "angles are known to the end of the run, but the column may be falling then".to_string(),
+            false => format!("angles are known up to t = {:.4} s only", self.horizon),
+        };
+        format!("{known}; small changes grow {grown} times; {verdicts_in_words}")
     }
 }
 
@@ -316,5 +334,31 @@ fn times(factor: f64) -> String {
         factor if factor < 100.0 => format!("{factor:.1}"),
         factor if factor < 1e5 => format!("{:.0}", factor),
         factor => format!("{factor:.0e}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rocking_ground::Motion;
+
+    /// How long a run might have lasted says nothing of a run that has ended.
+    #[test]
+    fn trust_does_not_depend_on_the_time_after_the_end_of_the_run() {
+        let mut scene = Scene::new(Column::equal_blocks(3, 0.4, 1.56, 1.0, 9.81).expect("positive sizes"));
+        for (amplitude, status) in [(6.0, StopReason::Overturned), (3.0, StopReason::AtRest)] {
+            scene.excitation.horizontal = Some(Motion::SinePulse { amplitude, omega: 6.0, start: 0.0 });
+            let [short, long] = [40.0, 1e5].map(|t_end| {
+                scene.options.t_end = t_end;
+                let (response, trust) = follow(&scene).expect("runs");
+                assert_eq!(response.status, status, "{amplitude}");
+                assert!(trust.band.t.len() > 100 && trust.band.t.len() < 6_000, "{}", trust.band.t.len());
+                trust
+            });
+            assert_eq!(short.determined, long.determined, "{amplitude}");
+            for (short, long) in [(short.horizon, long.horizon), (short.amplification, long.amplification)] {
+                assert!((long / short - 1.0).abs() < 0.2, "{amplitude}: {short} {long}");
+            }
+        }
     }
 }

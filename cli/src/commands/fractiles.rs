@@ -46,7 +46,7 @@ pub fn write(sweep: &Sweep, out: &Path) -> Result<String, Failure> {
     for (index, row) in found.rows.enumerate() {
         let row = row.map_err(at(Failure::Study, out))?;
         let cell = |column: Option<usize>| column.and_then(|column| row.get(column)).unwrap_or_default();
-        let fate = Fate::named(cell(outcome)).filter(|fate| fate.is_decided() && cell(trust) != NOT_DETERMINED);
+        let fate = Fate::parse(cell(outcome)).filter(|fate| fate.is_decided() && cell(trust) != NOT_DETERMINED);
         let peaks = (0..blocks).filter_map(|block| cell(first_peak.map(|first| first + block)).parse::<f64>().ok());
         let group = &mut groups[group(sweep, index)];
         group.first = if group.runs == 0 { index } else { group.first };

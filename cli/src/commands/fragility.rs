@@ -339,74 +339,7 @@ impl Conclusions {
     /// The table of curves: a row per state.
     fn curves(&self) -> Result<Vec<u8>, csv::Error> {
         let mut table = csv::Writer::from_writer(Vec::new());
-        table.write_record([
-            "state",
-            "measure",
-            "fit",
-            "median",
-            "median_low",
-            "median_high",
-            "dispersion",
-            "dispersion_low",
-            "dispersion_high",
-            "confidence",
-            "replicates",
-            "replicates_fitted",
-            "chi_squared",
-            "degrees_of_freedom",
-            "p_value",
-            "pseudo_r2",
-            "log_likelihood",
-            "records",
-            "runs",
-            "undecided",
-            "falls",
-            "resurrections",
-            "statement",
-        ])?;
-        let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:?}"));
-        let whole = |value: Option<usize>| value.map_or(String::new(), |value| value.to_string());
-        for fragility in &self.fragilities {
-            let (fit, curve) = match fragility.fit {
-                Fit::Lognormal { median, dispersion, log_likelihood } => {
-                    ("lognormal", Some([median, dispersion, log_likelihood]))
-                }
-                Fit::NoRuns => ("no-runs", None),
-                Fit::OneRecord => ("one-record", None),
-                Fit::Never { .. } => ("never", None),
-                Fit::Always { .. } => ("always", None),
-                Fit::Step { .. } => ("step", None),
-                _ => ("falling", None),
-            };
-            let bands = fragility.bands.as_ref();
-            let [median, dispersion] = [bands.and_then(|bands| bands.median), bands.and_then(|bands| bands.dispersion)];
-            let goodness = fragility.goodness;
-            table.write_record([
-                fragility.state.to_string(),
-                self.measure.clone(),
-                fit.into(),
-                number(curve.map(|curve| curve[0])),
-                number(median.map(|band| band[0])),
-                number(median.map(|band| band[1])),
-                number(curve.map(|curve| curve[1])),
-                number(dispersion.map(|band| band[0])),
-                number(dispersion.map(|band| band[1])),
-                number(bands.map(|bands| bands.confidence)),
-                whole(bands.map(|bands| bands.replicates)),
-                whole(bands.map(|bands| bands.fitted)),
-                number(goodness.map(|goodness| goodness.chi_squared)),
-                whole(goodness.map(|goodness| goodness.degrees_of_freedom)),
-                number(goodness.and_then(|goodness| goodness.p_value)),
-                number(goodness.map(|goodness| goodness.pseudo_r2)),
-                number(curve.map(|curve| curve[2])),
-                fragility.records.to_string(),
-                fragility.counts.iter().map(|count| count.runs).sum::<usize>().to_string(),
-                fragility.undecided().to_string(),
-                fragility.falls.len().to_string(),
-                fragility.resurrections.len().to_string(),
-                fragility.statements().join("; "),
-            ])?;
-        }
+        self.fragilities.iter().try_for_each(|fragility| table.serialize(Curve::of(fragility, &self.measure)))?;
         table.into_inner().map_err(|error| csv::Error::from(error.into_error()))
     }
 
@@ -433,5 +366,76 @@ impl Conclusions {
             }
         }
         table.into_inner().map_err(|error| csv::Error::from(error.into_error()))
+    }
+}
+
+/// A row of the table of curves.
+#[derive(Serialize)]
+struct Curve<'a> {
+    state: String,
+    measure: &'a str,
+    fit: &'static str,
+    median: Option<f64>,
+    median_low: Option<f64>,
+    median_high: Option<f64>,
+    dispersion: Option<f64>,
+    dispersion_low: Option<f64>,
+    dispersion_high: Option<f64>,
+    confidence: Option<f64>,
+    replicates: Option<usize>,
+    replicates_fitted: Option<usize>,
+    chi_squared: Option<f64>,
+    degrees_of_freedom: Option<usize>,
+    p_value: Option<f64>,
+    pseudo_r2: Option<f64>,
+    log_likelihood: Option<f64>,
+    records: usize,
+    runs: usize,
+    undecided: usize,
+    falls: usize,
+    resurrections: usize,
+    statement: String,
+}
+
+impl Curve<'_> {
+    fn of<'a>(fragility: &Fragility, measure: &'a str) -> Curve<'a> {
+        let (fit, curve) = match fragility.fit {
+            Fit::Lognormal { median, dispersion, log_likelihood } => {
+                ("lognormal", Some([median, dispersion, log_likelihood]))
+            }
+            Fit::NoRuns => ("no-runs", None),
+            Fit::OneRecord => ("one-record", None),
+            Fit::Never { .. } => ("never", None),
+            Fit::Always { .. } => ("always", None),
+            Fit::Step { .. } => ("step", None),
+            _ => ("falling", None),
+        };
+        let (bands, goodness) = (fragility.bands.as_ref(), fragility.goodness);
+        let [median, dispersion] = [bands.and_then(|bands| bands.median), bands.and_then(|bands| bands.dispersion)];
+        Curve {
+            state: fragility.state.to_string(),
+            measure,
+            fit,
+            median: curve.map(|curve| curve[0]),
+            median_low: median.map(|band| band[0]),
+            median_high: median.map(|band| band[1]),
+            dispersion: curve.map(|curve| curve[1]),
+            dispersion_low: dispersion.map(|band| band[0]),
+            dispersion_high: dispersion.map(|band| band[1]),
+            confidence: bands.map(|bands| bands.confidence),
+            replicates: bands.map(|bands| bands.replicates),
+            replicates_fitted: bands.map(|bands| bands.fitted),
+            chi_squared: goodness.map(|goodness| goodness.chi_squared),
+            degrees_of_freedom: goodness.map(|goodness| goodness.degrees_of_freedom),
+            p_value: goodness.and_then(|goodness| goodness.p_value),
+            pseudo_r2: goodness.map(|goodness| goodness.pseudo_r2),
+            log_likelihood: curve.map(|curve| curve[2]),
+            records: fragility.records,
+            runs: fragility.counts.iter().map(|count| count.runs).sum(),
+            undecided: fragility.undecided(),
+            falls: fragility.falls.len(),
+            resurrections: fragility.resurrections.len(),
+            statement: fragility.statements().join("; "),
+        }
     }
 }

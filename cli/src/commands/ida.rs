@@ -9,7 +9,7 @@ use crate::commands::spectrum::beside;
 use crate::commands::sweep::{OUTCOME, TIME, TableDigest, threads};
 use crate::error::{Failure, at};
 use crate::output;
-use crate::plot::{self, Paper};
+use crate::plot::{self, Figure, Paper};
 use crate::progress::Progress;
 use crate::table::column::{Column, Kind, Rows};
 use crate::table::growing::Growing;
@@ -75,13 +75,11 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     report.push_str(&conclusions.write(out)?);
     if let Some([picture, curves]) = &pictures {
         let (label, paper) = (ida.intensity().label(), Paper::default());
-        for (figure, path) in [
-            (plot::ida(&label, &runs, &stripes, &paper), picture),
-            (plot::fragility(&label, &conclusions.fragilities, &paper), curves),
-        ] {
-            write(&figure, path)?;
-            let _ = writeln!(report, "wrote {}: {}", shown(path), figure.caption);
-        }
+        let pictures = [
+            (plot::ida(&label, &runs, &stripes, &paper), picture.as_path()),
+            (plot::fragility(&label, &conclusions.fragilities, &paper), curves.as_path()),
+        ];
+        report.push_str(&write_figures(&pictures)?);
     }
     if request.json {
         json(&Summary {
@@ -121,15 +119,21 @@ pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<Option<String
     let read = fragility::read(table, None, &[])?;
     let label = read.measure.parse().map_or(read.measure.clone(), |intensity: Intensity| intensity.label());
     let conclusions = Conclusions::of(&read.runs, &read.measure, &DEFAULT_STATES, &FragilityOptions::default());
+    let pictures = [
+        (plot::ida(&label, &read.runs, &stripes(&read.runs), paper), picture),
+        (plot::fragility(&label, &conclusions.fragilities, paper), &beside(picture, "fragility")),
+    ];
+    Ok(Some(write_figures(&pictures)?))
+}
+
+/// Writes figures into files; returns the names of the files, with captions.
+fn write_figures(pictures: &[(Figure, &Path)]) -> Result<String, Failure> {
     let mut report = String::new();
-    for (figure, path) in [
-        (plot::ida(&label, &read.runs, &stripes(&read.runs), paper), picture.to_path_buf()),
-        (plot::fragility(&label, &conclusions.fragilities, paper), beside(picture, "fragility")),
-    ] {
-        write(&figure, &path)?;
-        let _ = writeln!(report, "wrote {}: {}", shown(&path), figure.caption);
+    for (figure, path) in pictures {
+        write(figure, path)?;
+        let _ = writeln!(report, "wrote {}: {}", shown(path), figure.caption);
     }
-    Ok(Some(report))
+    Ok(report)
 }
 
 /// The digest of all that decides the rows.

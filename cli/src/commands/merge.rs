@@ -170,7 +170,7 @@ fn join(
 
 /// Whether a row has an outcome, or an error and no outcome.
 fn is_whole(row: &StringRecord, outcome: usize) -> bool {
-    let is_fate = Fate::named(&row[outcome]).is_some();
+    let is_fate = Fate::parse(&row[outcome]).is_some();
     let has_error = row.iter().next_back().is_some_and(|error| !error.is_empty());
     is_fate != has_error && (is_fate || &row[outcome] == ERROR)
 }

@@ -47,7 +47,7 @@ pub fn of(sweep: &Sweep, out: &Path) -> Result<Vec<Lost>, Failure> {
     for (place, row) in found.rows.enumerate() {
         let row = row.map_err(at(Failure::Study, out))?;
         let cell = |column: Option<usize>| column.and_then(|column| row.get(column)).unwrap_or_default();
-        let fate = Fate::named(cell(outcome)).filter(|fate| fate.is_decided() && cell(trust) != NOT_DETERMINED);
+        let fate = Fate::parse(cell(outcome)).filter(|fate| fate.is_decided() && cell(trust) != NOT_DETERMINED);
         let Some(count) = counts.get_mut(place / samples) else { break };
         match fate {
             None => undecided[place / samples] += 1,

@@ -57,6 +57,12 @@ pub fn run(request: &Run) -> Result<(), Failure> {
     finished.trust = followed.trust();
     finished.outdated.extend(outdated);
     folder.write(&finished)?;
+    if !request.quiet {
+        warn(&finished.warnings);
+    }
+    if !request.quiet && !request.json {
+        print(&account(&scene, &response, &followed))?;
+    }
     let mut written: Vec<String> = ["summary.json", "response.csv", "events.json"].map(String::from).to_vec();
     if out.join(COMPANIONS).is_file() {
         written.push(COMPANIONS.into());
@@ -76,11 +82,10 @@ pub fn run(request: &Run) -> Result<(), Failure> {
     if request.quiet {
         return Ok(());
     }
-    warn(&finished.warnings);
     if request.json {
         return json_text(&folder.summary()?);
     }
-    print(&format!("{}wrote {} to {}\n", account(&scene, &response, &followed), written.join(", "), shown(out)))
+    print(&format!("wrote {} to {}\n", written.join(", "), shown(out)))
 }
 
 /// Modes whose times are printed; the others are brief in most runs, and stand in `summary.json`.

@@ -6,6 +6,7 @@
 mod kind;
 mod list;
 mod motion;
+mod record;
 mod scene;
 mod station;
 mod study;

@@ -59,8 +59,8 @@ pub struct Block {
 #[derive(JsonSchema)]
 pub struct Sizes {
     /// the solid: a prism has the same side view at every depth, a drum is a cylinder or frustum
-    #[schemars(extend("x-default" = "prism; with a diameter drum"))]
-    pub shape: Option<Shape>,
+    #[schemars(extend("enum" = ["prism", "drum"], "x-default" = "prism; with a diameter drum"))]
+    pub shape: Option<String>,
     /// half of the width
     #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m", "x-default" = "one of `half_width`, `width`, `diameter`"))]
     pub half_width: Option<f64>,
@@ -109,14 +109,6 @@ pub struct Sizes {
     /// moment of inertia about the centroid; of a column of one block
     #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "kg m²", "x-default" = "of the homogeneous body"))]
     pub inertia: Option<f64>,
-}
-
-/// The solid of which a block is the side view.
-#[derive(JsonSchema)]
-#[schemars(rename_all = "kebab-case")]
-pub enum Shape {
-    Prism,
-    Drum,
 }
 
 /// A column that is cut into blocks of equal height.
@@ -185,21 +177,14 @@ pub enum NumberOrList {
 #[schemars(deny_unknown_fields)]
 pub struct Restitution {
     /// angular momentum about the new pivots is conserved
-    #[schemars(extend("x-default" = "plastic"))]
-    pub law: Option<Law>,
+    #[schemars(extend("enum" = ["plastic"], "x-default" = "plastic"))]
+    pub law: Option<String>,
     /// ratio of the rates after and before an impact of the column as one body
     #[schemars(range(min = 0, max = 1), extend("x-default" = "none"))]
     pub eta: Option<f64>,
     /// factor of the plastic relative rate at each interface, base first
     #[schemars(extend("x-default" = "none"))]
     pub factors: Option<Vec<f64>>,
-}
-
-/// A law of impacts.
-#[derive(JsonSchema)]
-#[schemars(rename_all = "kebab-case")]
-pub enum Law {
-    Plastic,
 }
 
 /// Ground motion.

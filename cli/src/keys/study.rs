@@ -2,7 +2,7 @@
 
 #![allow(dead_code, reason = "types of which only the schema is made")]
 
-use super::motion::NameOrNumber;
+use super::record::{Oscillator, Reading};
 use super::scene::Scene;
 use super::sweep::Range;
 use schemars::JsonSchema;
@@ -15,12 +15,9 @@ pub struct Study {
     pub scene: FileOrScene,
     /// the intensity measure: `pga`, `pga_g`, `pga_uplift`, `pgv`, `pgv_uplift`, `pgd`, `arias`, `cav`, `sa` or `sa_g`
     pub measure: String,
-    /// period of the oscillator of `sa`, `sa_g`
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "s", "x-default" = "required with `sa`, `sa_g`"))]
-    pub sa_period: Option<f64>,
-    /// its damping ratio
-    #[schemars(range(min = 0), extend("exclusiveMaximum" = 1, "x-default" = "0.05"))]
-    pub sa_damping: Option<f64>,
+    /// keys of the measures `sa` and `sa_g`
+    #[schemars(flatten)]
+    pub oscillator: Oscillator,
     /// levels of the measure
     #[schemars(extend("x-unit" = "of the measure"))]
     pub levels: ListOrRange,
@@ -83,18 +80,9 @@ pub struct Records {
     /// sampling interval
     #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "s", "x-default" = "from the file"))]
     pub dt: Option<f64>,
-    /// accept a file with fewer samples than it declares
-    #[schemars(extend("x-default" = "false"))]
-    pub lenient: Option<bool>,
-    /// channel of a file that has several
-    #[schemars(range(min = 1), extend("x-default" = "the only one"))]
-    pub channel: Option<u32>,
-    /// column of a text table with the accelerations: its name, or its number from 1
-    #[schemars(extend("x-default" = "found by itself"))]
-    pub column: Option<NameOrNumber>,
-    /// lines at the head of a text table that are not read
-    #[schemars(extend("x-default" = "0"))]
-    pub skip_rows: Option<u32>,
+    /// keys of the reader of files
+    #[schemars(flatten)]
+    pub reading: Reading,
     /// synthetic records
     #[schemars(extend("x-default" = "none"))]
     pub synthetic: Option<Synthetic>,
@@ -137,14 +125,6 @@ pub struct Fragility {
     #[schemars(extend("x-default" = "0"))]
     pub seed: Option<u64>,
     /// whether several runs share each level
-    #[schemars(extend("x-default" = "as the data have it"))]
-    pub layout: Option<Layout>,
-}
-
-/// Layout of the runs of a study.
-#[derive(JsonSchema)]
-#[schemars(rename_all = "kebab-case")]
-pub enum Layout {
-    Stripes,
-    Cloud,
+    #[schemars(extend("enum" = rocking::studies::Layout::NAMES, "x-default" = "as the data have it"))]
+    pub layout: Option<String>,
 }

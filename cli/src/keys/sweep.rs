@@ -12,11 +12,11 @@ pub struct Sweep {
     /// the base scene, relative to the sweep
     pub scene: String,
     /// how axes make points: each value with each other, or the first values together and so on
-    #[schemars(extend("x-default" = "cartesian"))]
-    pub combine: Option<Combine>,
+    #[schemars(extend("enum" = rocking::sweep::Combine::NAMES, "x-default" = "cartesian"))]
+    pub combine: Option<String>,
     /// what each row holds
-    #[schemars(extend("x-default" = "outcome"))]
-    pub ask: Option<Ask>,
+    #[schemars(extend("enum" = rocking::sweep::Ask::NAMES, "x-default" = "outcome"))]
+    pub ask: Option<String>,
     /// a line per key of the scene that varies, under its name or its dotted name in quotes
     pub axes: BTreeMap<String, Axis>,
     /// how axes that are distributions are sampled
@@ -32,23 +32,14 @@ pub struct Sampling {
     #[schemars(range(min = 1))]
     pub samples: u32,
     /// how samples are drawn
-    #[schemars(extend("x-default" = "latin-hypercube"))]
-    pub method: Option<SamplingMethod>,
+    #[schemars(extend("enum" = rocking::sweep::SamplingMethod::NAMES, "x-default" = "latin-hypercube"))]
+    pub method: Option<String>,
     /// the same seed gives the same samples on every machine
     #[schemars(extend("x-default" = "0"))]
     pub seed: Option<u64>,
     /// pairs of distributed axes that are correlated
     #[schemars(extend("x-default" = "none"))]
     pub correlations: Option<Vec<Correlation>>,
-}
-
-/// A way to draw samples.
-#[derive(JsonSchema)]
-#[schemars(rename_all = "kebab-case")]
-pub enum SamplingMethod {
-    Plain,
-    LatinHypercube,
-    Sobol,
 }
 
 /// A pair of correlated axes.
@@ -60,26 +51,6 @@ pub struct Correlation {
     /// correlation of their normal scores
     #[schemars(extend("exclusiveMinimum" = -1, "exclusiveMaximum" = 1))]
     pub value: f64,
-}
-
-/// A way to combine axes.
-#[derive(JsonSchema)]
-#[schemars(rename_all = "kebab-case")]
-pub enum Combine {
-    Cartesian,
-    Paired,
-}
-
-/// What is asked of each run.
-#[derive(JsonSchema)]
-#[schemars(rename_all = "kebab-case")]
-pub enum Ask {
-    Outcome,
-    Overturns,
-    Peaks,
-    Slides,
-    Validity,
-    Trust,
 }
 
 /// The values of an axis, or a table of axes whose names begin alike.
@@ -116,16 +87,8 @@ pub struct Range {
     #[schemars(range(min = 1, max = 10_000_000), extend("x-default" = "whole numbers from `from` to `to`"))]
     pub steps: Option<u32>,
     /// evenly spaced, or in geometric progression
-    #[schemars(extend("x-default" = "linear"))]
-    pub scale: Option<Scale>,
-}
-
-/// Spacing of the values of a range.
-#[derive(JsonSchema)]
-#[schemars(rename_all = "kebab-case")]
-pub enum Scale {
-    Linear,
-    Log,
+    #[schemars(extend("enum" = ["linear", "log"], "x-default" = "linear"))]
+    pub scale: Option<String>,
 }
 
 /// The files of a folder.

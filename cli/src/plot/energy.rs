@@ -7,6 +7,7 @@ use super::sheet::{Anchor, Figure, Key, Sheet};
 use super::style::{self, Stroke};
 use super::time_history::{mark_ending, time_axis};
 use rocking::Sample;
+use rocking::column::Shape;
 use rocking::pattern::Pattern;
 
 /// Height of the panel `[px]`.
@@ -66,9 +67,13 @@ pub fn draw(motion: &DrawnRun) -> Figure {
 
 fn caption(motion: &DrawnRun, largest: f64) -> String {
     let mut caption = String::from(
-        "Energy relative to the moving ground, potential above that of the column at rest; impacts are the drops of the \
-         total. Of prisms with a density and no depth, masses are per metre of thickness, and so is the energy.",
+        "Energy relative to the moving ground, potential above that of the column at rest; impacts are the drops of the total.",
     );
+    if (0..motion.results.column.len()).any(|block| motion.results.shape(block) == Shape::Prism) {
+        caption.push_str(
+            " Of prisms with a density and no depth, masses are per metre of thickness, and so is the energy.",
+        );
+    }
     if motion.overturned() {
         caption.push_str(" Curves leave the panel where the column falls.");
     } else {

@@ -268,7 +268,7 @@ const LISTED: usize = 24;
 
 fn modes_legend(sheet: &mut Sheet, motion: &DrawnRun, top: f64) -> f64 {
     let times = &motion.results.response.time_in_mode;
-    let total: f64 = times.values().sum();
+    let total = times.values().sum::<f64>().max(f64::MIN_POSITIVE);
     let share = |time: f64| percent(time / total);
     let modes = modes(motion);
     let (resting, moving): (Vec<&String>, Vec<&String>) = modes.iter().partition(|mode| *mode == "rest");

@@ -9,7 +9,7 @@ use crate::plot;
 use crate::plot::modes::{fill, rest};
 use crate::report::html::script;
 use crate::report::number;
-use crate::report::outcome::{changed, closed};
+use crate::report::outcome::changed;
 use rocking::Event;
 use rocking::column::Shape;
 use rocking::pattern::Pattern;
@@ -269,11 +269,9 @@ fn largest_shown(results: &Results) -> Option<f64> {
     (results.response.status == StopReason::Overturned).then(|| plot::FALL * slenderness.fold(0.0, f64::max))
 }
 
-/// Interfaces, from 0, that closed in an impact or landed. At a start, an opening or a jump: those whose state changed. At other events, e.g. a
-/// slip: those that the event names.
+/// Interfaces, from 0, at which an event happens: at a start, an opening or a jump those whose state changed, at other events those that the event names.
 fn interfaces(event: &Event) -> Vec<usize> {
     match event.kind {
-        EventKind::Impact | EventKind::Landing => closed(event),
         // Patterns are compared, because a jump names no interface. A slip changes no pattern, and is in the last arm.
         EventKind::Start | EventKind::Opening | EventKind::Jump => (0..event.after.0.len())
             .filter(|&interface| event.before.0[interface] != event.after.0[interface])

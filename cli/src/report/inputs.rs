@@ -1,10 +1,11 @@
 //! Inputs of a run: the column, gravity, contact law, ground motion, initial state, and the scene file itself.
 
 use crate::ground_in_words;
-use crate::number::{coefficients, widths};
+use crate::number::{self, coefficients, widths};
 use crate::report::html::definitions;
 use crate::report::number::{percent, significant, with_minus};
 use crate::text::escape;
+use rocking::response::BlockState;
 use rocking::run_folder::Results;
 use rocking::{Restitution, StopReason};
 use serde_json::Value;
@@ -86,15 +87,22 @@ fn restitution(law: &Restitution, housner: f64) -> String {
     }
 }
 
-/// Initial angles, rates and slides, from the first row. `None` if all are zero.
+/// Initial angles, rates and slides, and places and velocities where a block flies, from the first row. `None` if all are zero.
 fn initial(results: &Results) -> Option<String> {
     let first = results.response.samples.first()?;
-    let list = |values: &[f64]| values.iter().map(|value| significant(*value, 5)).collect::<Vec<_>>().join(", ");
-    let is_zero = |values: &[f64]| values.iter().all(|value| *value == 0.0);
-    let parts: Vec<String> = [("θ", &first.theta, "rad"), ("ω", &first.omega, "rad/s"), ("slides", &first.slide, "m")]
-        .into_iter()
-        .filter(|(_, values, _)| !is_zero(values))
-        .map(|(name, values, unit)| format!("{name} = {} {unit}", list(values)))
-        .collect();
-    (!parts.is_empty()).then(|| format!("{}, base first", parts.join("; ")))
+    let flies = first.gap.iter().any(|gap| *gap != 0.0);
+    let of_blocks =
+        |value: fn(&BlockState) -> f64| first.blocks.iter().filter(|_| flies).map(value).collect::<Vec<_>>();
+    let [x, y] = [of_blocks(|block| block.place[0]), of_blocks(|block| block.place[1])];
+    let [vx, vy] = [of_blocks(|block| block.velocity[0]), of_blocks(|block| block.velocity[1])];
+    let lists: [(&str, &[f64], &str); 7] = [
+        ("θ", &first.theta, "rad"),
+        ("ω", &first.omega, "rad/s"),
+        ("slides", &first.slide, "m"),
+        ("x", &x, "m"),
+        ("y", &y, "m"),
+        ("vx", &vx, "m/s"),
+        ("vy", &vy, "m/s"),
+    ];
+    number::state(&lists).map(|state| with_minus(&state))
 }

@@ -172,7 +172,7 @@ pub fn tiles(results: &Results) -> String {
     tiles.push(("largest angle", degrees(largest), format!("{} rad; |θ|/α up to {share}", significant(largest, 4))));
     tiles.push(("impacts", response.impacts.to_string(), other_events(&response.events)));
     let total: f64 = response.time_in_mode.values().sum();
-    if let Some((mode, time)) = response.modes_by_time().first().copied() {
+    if let Some((mode, time)) = response.modes_by_time().first().copied().filter(|_| total > 0.0) {
         let name = if mode == "rest" { rest(response).to_string() } else { format!("mode {}", escape(mode)) };
         tiles.push(("most of the time", name, format!("{} of {} s", percent(time / total), significant(total, 4))));
     }
@@ -203,12 +203,16 @@ const OTHER_EVENTS: [(EventKind, [&str; 2]); 8] = [
     (EventKind::Collapsed, ["loss of support", "losses of support"]),
 ];
 
-/// Numbers of the events without impact, by their kinds.
+/// Numbers of the events without impact, by their kinds. With friction an event may change several contacts, of which its kind names the first.
 fn other_events(events: &[Event]) -> String {
     let of_kind = |kind: EventKind| events.iter().filter(|event| event.kind == kind).count();
     let found = OTHER_EVENTS.iter().map(|(kind, nouns)| (of_kind(*kind), *nouns)).filter(|(count, _)| *count > 0);
     let found: Vec<String> = found.map(|(count, nouns)| counted(count, nouns)).collect();
-    if found.is_empty() { "no other events".into() } else { format!("besides {}", found.join(", ")) }
+    let lead = match events.iter().any(|event| event.states_after.is_some()) {
+        true => "other events, by their first change: ",
+        false => "besides ",
+    };
+    if found.is_empty() { "no other events".into() } else { format!("{lead}{}", found.join(", ")) }
 }
 
 /// Peak angles, top block first.
@@ -244,19 +248,6 @@ fn bar(share: f64) -> String {
     )
 }
 
-/// Interfaces, from 0, that closed in an impact: open before it, and without a gap at it. Of a landing, those that [`changed`] gives.
-pub fn closed(event: &Event) -> Vec<usize> {
-    if event.kind == EventKind::Landing {
-        return changed(event);
-    }
-    let gap = |interface: usize| {
-        let below = if interface == 0 { 0.0 } else { event.theta[interface - 1] };
-        (event.theta[interface] - below).abs()
-    };
-    let was_open = |interface: usize| event.before.0[interface].is_open();
-    (0..event.theta.len()).filter(|&interface| was_open(interface) && gap(interface) < CLOSED_GAP).collect()
-}
-
 /// Interfaces, from 0, that an event names. If it names none, those whose state changed.
 pub fn changed(event: &Event) -> Vec<usize> {
     let all = 0..event.after.0.len();
@@ -266,10 +257,6 @@ pub fn changed(event: &Event) -> Vec<usize> {
         _ => all.filter(|&at| event.before.0[at] != event.after.0[at]).collect(),
     }
 }
-
-/// Largest relative angle of a closed interface `[rad]`: smaller ones are rounding. Hops that a run follows are larger by far, unless `stick_angle`, by
-/// default 1e-9 rad, is set below this.
-const CLOSED_GAP: f64 = 1e-12;
 
 /// Number of impacts, their interfaces, and the times of the first and the last.
 pub fn impacts(results: &Results) -> String {
@@ -288,11 +275,12 @@ pub fn impacts(results: &Results) -> String {
         }
     };
     let mut at = vec![0; results.column.len()];
-    impacts.iter().flat_map(|event| closed(event)).for_each(|interface| at[interface] += 1);
+    impacts.iter().flat_map(|event| changed(event)).for_each(|interface| at[interface] += 1);
     let share = |interface: usize| format!("<li>interface {}: {}</li>", interface + 1, at[interface]);
     let shares: String = (0..at.len()).rev().map(share).collect();
     let counted = if at.len() > 1 {
-        format!("; interfaces that closed, several at once in some:</p>\n<ul class=\"plain\">{shares}</ul>\n")
+        let several = if at.iter().sum::<usize>() > impacts.len() { ", several at once in some" } else { "" };
+        format!("; interfaces that closed{several}:</p>\n<ul class=\"plain\">{shares}</ul>\n")
     } else {
         ".</p>\n".into()
     };

@@ -73,7 +73,7 @@ fn judge_sliding(results: &Results, report: &SlidingReport) -> Verdict {
         Some(error) if error <= BALANCE => {
             let _ = write!(why, ", and the energy balance closes to {}", significant(error, 1));
         }
-        Some(error) => notes.push(format!("the energy balance is open by {} of the ground's work", percent(error))),
+        Some(error) => notes.push(format!("the energy balance is open by {} of its largest term", percent(error))),
         None => {}
     }
     for (instants, what) in [
@@ -367,7 +367,7 @@ fn slides(report: &SlidingReport) -> String {
     let _ = write!(
         text,
         "<div class=\"wide\"><table>\n<caption>Slides per interface, the top one first; to the right is positive.</caption>\n\
-         <thead><tr><th scope=\"col\">interface</th><th scope=\"col\">slide at the end [cm]</th><th scope=\"col\">largest [cm]</th>\
+         <thead><tr><th scope=\"col\">interface</th><th scope=\"col\">slide at the end [cm]</th><th scope=\"col\">largest in contact [cm]</th>\
          <th scope=\"col\">way slid [cm]</th><th scope=\"col\">time sliding [s]</th><th scope=\"col\">flights</th>\
          <th scope=\"col\">time free [s]</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
     );

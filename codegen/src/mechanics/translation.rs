@@ -16,8 +16,8 @@
 //! free angles and `k` translations. For this purpose each link has one body on each *level*: bodies of level `l` are carried by the
 //! translations `1..=l`. Bodies that a column does not have get zero mass.
 //!
-//! The slide itself, `u_c`, moves bodies in the axes of the link with whose angle the face turns. So it is part of the first moments and
-//! levers of that link, and the derivation is made at `w = 0`.
+//! `w_c` is counted from the instant of the derivation, at which `w = 0`. The slide up to then, `u_c`, is contained in the first moments and levers of
+//! the link with whose angle the face turns.
 
 use super::kinematics::{Bodies, Symbols, Vector, dot, jacobian, rotate, total_derivative};
 use super::lagrange::{Equations, equations_of_motion};

@@ -1,4 +1,4 @@
-//! Recognises, in multiplied-out sums, vectors turned by one angle and couplings by the difference of two angles.
+//! Finds, in expanded sums, rotated vectors `A cos a + B sin a`, and couplings of two links as functions of the difference `b - a` of their angles.
 //!
 //! A derivation writes the coupling of two links as products of the sines and cosines of both angles. With
 //! `δ = b - a` the addition theorems give

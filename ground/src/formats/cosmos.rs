@@ -176,7 +176,7 @@ impl<'t> Channel<'t> {
         (self.begin..self.announced).find(|index| self.lines[*index].to_ascii_lowercase().contains(word))
     }
 
-    /// The values of the header that `word` names, perhaps fewer than it declares. There are none if the header is missing or unreadable.
+    /// Values of the section of the header that `word` names: fewer than declared if the section is cut off, none if it is missing or unreadable.
     fn header(&self, word: &str) -> Vec<f64> {
         let Some(index) = self.find(word) else { return Vec::new() };
         let line = self.lines[index];

@@ -90,7 +90,7 @@ pub fn number_after(line: &str, key: &str) -> Option<f64> {
     leading_number(place_after(line, key)?)
 }
 
-/// The text after `key`, which is given in capitals, and after `=`, `:` or blanks. The key is not the end of a longer word.
+/// The text after `key`, without the blanks, `=` and `:` before it. `key` is in capitals, and found at the start of a word only.
 pub fn place_after<'t>(line: &'t str, key: &str) -> Option<&'t str> {
     let upper = line.to_ascii_uppercase();
     let at = upper.match_indices(key).find(|(at, _)| !upper[..*at].ends_with(|c: char| c.is_ascii_alphanumeric()))?.0;

@@ -30,7 +30,7 @@ const HEADER_LINES: usize = 17;
 /// Characters before the value.
 const VALUE: usize = 18;
 
-/// The zero of the stated peak may be the mean of another stretch.
+/// The header may state the peak relative to the mean of another part of the record than the mean removed here: hence the wide bounds.
 const PEAK_BOUNDS: PeakBounds = PeakBounds { rounding: 0.05, damage: 0.5 };
 
 /// Rows of eight integers of nine characters.

@@ -78,7 +78,7 @@ impl Barrier {
         theta.iter().zip(&self.angles).any(|(theta, most)| theta.abs() > *most)
     }
 
-    /// Whether a column with these angles `[rad]` and this energy above rest `[J]` is out of the box, or has the energy to leave it.
+    /// Whether the column may overturn: some angle `[rad]` is outside [`Self::angles`], or the energy above rest `[J]` reaches [`Self::energy`].
     pub(crate) fn may_be_passed(&self, theta: &[f64], energy: f64) -> bool {
         self.is_left(theta) || energy >= self.energy
     }

@@ -3,9 +3,10 @@
 use crate::commands::thresholds;
 use crate::error::Failure;
 use crate::ground_in_words;
-use crate::number::{coefficients, fixed, significant, widths};
+use crate::number::{self, coefficients, fixed, significant, widths};
 use crate::terminal::{json, print, warn};
 use crate::text::{printable, shown};
+use rocking::scene::Initial;
 use rocking::scene_file::{Derived, SceneFile};
 use rocking::{Block, Friction, Motion, Restitution, Scene};
 use serde::{Serialize, Serializer};
@@ -33,6 +34,10 @@ struct Findings {
     contacts: Vec<ContactFindings>,
     horizontal: Option<MotionFindings>,
     vertical: Option<MotionFindings>,
+    /// State at t = 0.
+    initial: Initial,
+    /// Slides at t = 0 `[m]`.
+    slides: Vec<f64>,
     /// Interfaces, from 1, that the ground motion opens from rest, if none of the others opens or slides before.
     opens: Vec<usize>,
     /// When the first of them opens `[s]`.
@@ -54,9 +59,9 @@ struct ContactFindings {
     slides_at: f64,
     /// Horizontal ground acceleration at which the contact opens, to the side to which it takes less, without vertical motion `[m/s²]`.
     opens_at: f64,
-    /// When the ground motion of the scene first slides the contact at rest `[s]`, if nothing opens or slides before; `None` if it does not.
+    /// First time at which the ground motion slides this contact of a column still at rest `[s]`; `None` if never.
     slides_from: Option<f64>,
-    /// When the ground motion of the scene first opens the contact at rest `[s]`, if nothing opens or slides before; `None` if it does not.
+    /// First time at which the ground motion opens this contact of a column still at rest `[s]`; `None` if never.
     opens_from: Option<f64>,
     /// Whether both sides take the same.
     is_symmetric: bool,
@@ -166,6 +171,20 @@ fn described<S: Serializer>(motion: &Motion, serializer: S) -> Result<S::Ok, S::
     motion.description().serialize(serializer)
 }
 
+/// The state at t = 0 in words; `None` for a column that stands upright, not displaced and at rest.
+fn initial(scene: &Scene) -> Option<String> {
+    let Initial { theta, omega, x, y, vx, vy, .. } = &scene.initial;
+    number::state(&[
+        ("theta", theta, "rad"),
+        ("omega", omega, "rad/s"),
+        ("slide", scene.column.slides(), "m"),
+        ("x", x, "m"),
+        ("y", y, "m"),
+        ("vx", vx, "m/s"),
+        ("vy", vy, "m/s"),
+    ])
+}
+
 impl Findings {
     fn of(scene: &Scene, derived: Vec<Derived>) -> Findings {
         let column = &scene.column;
@@ -197,6 +216,8 @@ impl Findings {
             restitution_factors: scene.restitution.factors(column),
             horizontal,
             vertical: component(&scene.excitation.vertical),
+            initial: scene.initial.clone(),
+            slides: column.slides().to_vec(),
             method: scene.options.method.stepper().name(),
             rows: scene.row_times().count() as u64,
             warnings: scene.excitation.warnings(),
@@ -210,6 +231,9 @@ impl Findings {
         }
         text.push('\n');
         self.column(&mut text, scene);
+        if let Some(state) = initial(scene) {
+            let _ = writeln!(text, "\nat t = 0: {state}");
+        }
         self.ground(&mut text, scene);
         self.friction(&mut text, scene);
         let options = &scene.options;

@@ -15,7 +15,7 @@ enum Span {
     X(Vec<usize>),
     /// Row of each value.
     Y(Vec<usize>),
-    /// The axis is no side of a panel: the panels are repeated for each of its values. The number of values.
+    /// One set of panels per value of the axis: the number of values.
     Panels(usize),
 }
 

@@ -10,7 +10,7 @@ use std::cmp::Ordering;
 pub struct Scale {
     /// The key that varies.
     pub key: String,
-    /// Values in rising order, all different. At least two, but for a strip, which has one.
+    /// Ascending, distinct values: two or more; a strip has one.
     pub values: Vec<f64>,
     /// Edges of the cells along the axis, in parts of its length: one more than values.
     pub edges: Vec<f64>,

@@ -1,4 +1,4 @@
-//! The classic Runge-Kutta method of order 4 with steps of given length: no error estimate, so every step is good. For comparison,
+//! The classic Runge-Kutta method of order 4 with steps of given length: no error estimate, and every step is accepted. For comparison,
 //! and for records where a step per sample is requested.
 //!
 //! Coefficients: Kutta (1901). Dense output: the cubic through both ends, of order 3.
