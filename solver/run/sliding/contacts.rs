@@ -10,7 +10,7 @@ use crate::friction::joint::{Configuration, Face, Joint, Sign, Slip, face};
 const GAP_SHARE: f64 = 1e-12;
 
 /// Share of the speed of a fall from a block's height below which a speed is rounding.
-const SPEED_SHARE: f64 = 1e-9;
+pub const SPEED_SHARE: f64 = 1e-9;
 
 /// Share of that speed below which a slide has no direction.
 const ROUNDING_SHARE: f64 = 1e-15;

@@ -124,11 +124,14 @@ fn end_of_part(
     (until, ended)
 }
 
+/// Largest hop whose time counts as one instant `[rad]`: with a loose `stick_angle`, chatter that a contact must pass through would be without end.
+const LARGEST_HOP_AT_ONCE: f64 = 1e-9;
+
 /// Time that a hop of `stick_angle`, the least hop that is followed, takes under the accelerations at work `[s]`.
 fn least_hop(problem: &Problem, at: &SlidingState) -> f64 {
     let (column, options) = (&problem.scene.column, &problem.scene.options);
     let acceleration = acceleration_scale(column, &at.configuration, problem.ground_at(at.segment, at.t));
-    (8.0 * options.stick_angle * column.size() / acceleration).sqrt()
+    (8.0 * options.stick_angle.min(LARGEST_HOP_AT_ONCE) * column.size() / acceleration).sqrt()
 }
 
 /// The events of one instant.

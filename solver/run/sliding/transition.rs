@@ -6,6 +6,7 @@ use super::state::{RunEnd, SlidingEnded, SlidingState};
 use crate::column::Column;
 use crate::friction::chain::{Chain, Rates};
 use crate::friction::contact_problem::{Coefficients, Question, Touch, half_length};
+use crate::friction::gaps::{self, Corner};
 use crate::friction::guards::Guard;
 use crate::friction::joint::{Configuration, Joint, Sign, Slip, face};
 use crate::friction::rows::Rows;
@@ -457,11 +458,11 @@ impl<'p> PendingTransition<'p> {
         is_new.then(|| solution.joints.iter().enumerate().map(held).collect())
     }
 
-    /// Projects the motion onto the motions that these states allow, momentum conserved. A corner without a gap that would close by this is closed
-    /// as well, unless it was closing before: its impact is still to come.
+    /// Projects the motion onto the motions that these states allow, momentum conserved. What touches and would be driven in by this is held as well,
+    /// unless it was closing before: its impact is still to come.
     pub fn hold(&mut self, joints: &[Joint]) {
-        let chain = Chain::new(self.column(), &self.now);
-        let before = chain.motion(&Rates::of(&self.now));
+        let (chain, rates) = (Chain::new(self.column(), &self.now), Rates::of(&self.now));
+        let before = chain.motion(&rates);
         let mut held = self.now.clone();
         for (interface, joint) in joints.iter().enumerate() {
             if *joint == Joint::Free {
@@ -473,23 +474,56 @@ impl<'p> PendingTransition<'p> {
         loop {
             let chain = Chain::new(self.column(), &held);
             let Some(answer) = Rows::new(&chain, &held.joints, &none, &none).impact(&before) else { return };
-            let closes = |interface: usize| match held.joints[interface] {
-                Joint::Corner(side, _, slip) => {
-                    let has_no_gap = held.relative_angle(interface).abs() <= self.resolution.angle;
-                    let rate = f64::from(side) * relative(&answer.motion.omega, interface);
-                    let was_closing = f64::from(side) * self.now.relative_rate(interface) < -self.resolution.rate;
-                    (has_no_gap && rate < 0.0 && !was_closing).then_some(slip)
-                }
-                Joint::Closed(_) | Joint::Free => None,
-            };
-            let Some((interface, slip)) = (0..joints.len()).find_map(|i| closes(i).map(|slip| (i, slip))) else {
+            let driven_in = |interface| self.driven_in(&chain, &held, [&rates, &answer.motion], interface);
+            let Some((interface, joint, slide)) = (0..joints.len()).find_map(driven_in) else {
                 answer.motion.give(&mut held);
                 break;
             };
-            held.joints[interface] = Joint::Closed(slip);
+            (held.joints[interface], held.slide[interface]) = (joint, slide);
         }
         let joints = held.joints.clone();
         self.now = held;
         self.adopt(&joints);
+    }
+
+    /// An interface that touches and that a jump of velocities from `before` to `after` would drive in, with the state that holds it and its slide `[m]`:
+    /// a corner whose faces would cross is closed, a free interface keeps the corner that touches. `None` if the interface is not driven in, or was
+    /// closing before.
+    fn driven_in(
+        &self,
+        chain: &Chain,
+        held: &Configuration,
+        [before, after]: [&Rates; 2],
+        interface: usize,
+    ) -> Option<(usize, Joint, f64)> {
+        let Resolution { gap, angle, speed, rate, .. } = self.resolution;
+        match held.joints[interface] {
+            Joint::Closed(_) => None,
+            Joint::Corner(side, _, slip) => {
+                let opening = |rates: &Rates| f64::from(side) * relative(&rates.omega, interface);
+                let is_driven = opening(after) < 0.0 && opening(before) >= -rate;
+                let is_closed = held.relative_angle(interface).abs() <= angle && is_driven;
+                is_closed.then(|| (interface, Joint::Closed(slip), held.slide[interface]))
+            }
+            Joint::Free => {
+                let leaving = |rates: &Rates, corner| gaps::slide_and_gap_rates(chain, rates, corner)[1];
+                let was_closing =
+                    |corner| self.now.joints[interface] == Joint::Free && leaving(before, corner) < -speed;
+                let is_driven = |corner: &Corner| {
+                    let [beside, above] = gaps::corner_position(chain, *corner);
+                    let touches = beside <= gap && above.abs() <= gap;
+                    touches && leaving(after, *corner) < -speed && !was_closing(*corner)
+                };
+                let corner = Corner::all(interface).find(is_driven)?;
+                let (joint, slide) = match self.now.joints[interface] {
+                    Joint::Free => {
+                        let touch = Touch::Corner(corner.side);
+                        contacts::met(self.column(), self.resolution, held, interface, touch)
+                    }
+                    joint => (joint, held.slide[interface]),
+                };
+                Some((interface, joint, slide))
+            }
+        }
     }
 }

@@ -2,14 +2,16 @@
 //! guards of forces are then refined on the forces themselves. Where it is the interpolant of an explicit method, guards are sampled.
 
 use super::{Output, Step};
-use crate::friction::chain::Pose;
+use crate::friction::chain::{Pose, Rates};
 use crate::friction::gaps::{self, Corner};
 use crate::friction::guards::Guard;
+use crate::friction::joint::Joint;
 use crate::friction::search::{ACCELERATION_SHARE, acceleration_scale};
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::guards::first_crossing;
 use crate::numerics::polynomial::powers::Powers;
 use crate::run::sliding::AT_ONCE;
+use crate::run::sliding::contacts::SPEED_SHARE;
 
 /// Share of its scale below which a guard that starts from zero has not left zero.
 const START_ROUNDING: f64 = 1e-15;
@@ -156,6 +158,11 @@ impl<O: Output> Step<'_, '_, O> {
             let rises = track.coefficient(roots) > 0.0;
             let found = if rises { track.root(roots) } else { Some(0.0) };
             match found {
+                // A gap that opens or closes faster than those of contacts that stay falls to zero where it is zero.
+                found if track.coefficient(1).abs() > self.staying(guard) => match found {
+                    Some(0.0) if start > 0.0 => track.root(0),
+                    found => found,
+                },
                 // A guard that has not left zero half-way to the root has been there all the time.
                 Some(s) if track.evaluate(0.5 * s) <= rounding[0] => track.shifted(1.0, below).root(0),
                 found => found,
@@ -207,23 +214,39 @@ impl<O: Output> Step<'_, '_, O> {
         if start < -CLEAR_MULTIPLE * noise {
             return Some(0.0);
         }
-        // A place at which the guard has left its start, before it comes back.
-        let (mut near, mut end) = (NEAR_START * limit, limit);
-        while near < LARGEST_START * limit && value(self, near).abs() <= CLEAR_MULTIPLE * noise {
-            near *= 4.0;
+        let rate = self.rate_at_start(guard);
+        if rate < -self.staying(guard) {
+            return if start > 0.0 { first_crossing(|s| value(self, s), start, limit) } else { Some(0.0) };
         }
-        while value(self, near) < -CLEAR_MULTIPLE * noise {
-            (near, end) = (0.1 * near, near);
-        }
+        let above_start = |step: &mut Self, s: f64| value(step, s) - start;
+        let is_gap = rate > self.staying(guard);
+        // A gap that opens faster than those of contacts that stay has left its start once it is above rounding.
+        let (value, clear): (&dyn Fn(&mut Self, f64) -> f64, f64) = match is_gap {
+            true => (&above_start, CLEAR_MULTIPLE * START_ROUNDING * self.unit(guard)),
+            false => (value, CLEAR_MULTIPLE * noise),
+        };
+        let [near, end] = self.leaving(value, limit, clear);
         let one = value(self, near);
-        if one <= CLEAR_MULTIPLE * noise {
+        if one <= clear {
             // The guard does not leave zero, or (`end < limit`) comes back before that can be resolved.
             return (end < limit).then_some(0.0);
         }
         let two = value(self, (2.0 * near).min(end));
-        let limit = end;
         let order = libm::log2((two / one).abs()).round().clamp(1.0, 3.0) as i32;
-        first_crossing(|s| value(self, s.max(near)) / (s.max(near) / near).powi(order), one, limit)
+        first_crossing(|s| value(self, s.max(near)) / (s.max(near) / near).powi(order), one, end)
+    }
+
+    /// A place at which a guard has left zero by more than `clear`, upwards before it comes back, and the end of what is known of it: `limit`, or the first
+    /// place found at which it is below. If it does not leave zero, the place is far from the start, or the guard is not above `clear` there.
+    fn leaving(&mut self, value: &dyn Fn(&mut Self, f64) -> f64, limit: f64, clear: f64) -> [f64; 2] {
+        let (mut near, mut end) = (NEAR_START * limit, limit);
+        while near < LARGEST_START * limit && value(self, near).abs() <= clear {
+            near *= 4.0;
+        }
+        while value(self, near) < -clear {
+            (near, end) = (0.1 * near, near);
+        }
+        [near, end]
     }
 
     /// Rounding of a guard that starts from zero, of its value, its slope and half its bend, with the step as the unit of time. An acceleration that
@@ -243,18 +266,47 @@ impl<O: Output> Step<'_, '_, O> {
         }
     }
 
+    /// Rate of a gap at the start, with the step as the unit of time; zero for a guard that is no gap, and where the gap alone decides nothing.
+    fn rate_at_start(&mut self, guard: Guard) -> f64 {
+        let (h, noise) = (self.h, self.noise(guard));
+        let moment = self.at(0.0, false);
+        let now = &moment.configuration;
+        match guard {
+            Guard::Close(interface) => {
+                let side = if let Joint::Corner(side, ..) = now.joints[interface] { f64::from(side) } else { 0.0 };
+                h * side * now.relative_rate(interface)
+            }
+            // Flush with the end of the face, the corner may pass beside it.
+            Guard::Land(corner) if gaps::corner_position(moment.chain(), corner)[0] >= -noise => 0.0,
+            Guard::Land(corner) => h * gaps::slide_and_gap_rates(moment.chain(), &Rates::of(now), corner)[1],
+            _ => 0.0,
+        }
+    }
+
+    /// Rate of a gap of contacts that stay, with the step as the unit of time; infinite for a guard that is no gap.
+    fn staying(&self, guard: Guard) -> f64 {
+        let speed = SPEED_SHARE * (self.smooth.column.size() * self.smooth.gravity).sqrt();
+        match guard {
+            Guard::Close(_) => self.h * speed / self.smooth.column.size(),
+            Guard::Land(_) => self.h * speed,
+            _ => f64::INFINITY,
+        }
+    }
+
     /// Value up to which a guard that starts from zero has not left zero: rounding, or a share of the hops, bounces and slides that are too low to
     /// be followed, whichever is larger.
     fn noise(&self, guard: Guard) -> f64 {
+        let resolution = if let Guard::Stop(_) = guard { self.stick_angle.sqrt() } else { self.stick_angle };
+        self.unit(guard) * START_ROUNDING.max(SHARE_OF_RESOLUTION * resolution)
+    }
+
+    /// The size of a guard that starts from zero: of an angle 1, of a slide's rate the speed of a fall from the column's size, of a length this size.
+    fn unit(&self, guard: Guard) -> f64 {
         let size = self.smooth.column.size();
-        let least = SHARE_OF_RESOLUTION * self.stick_angle;
         match guard {
-            Guard::Close(_) => START_ROUNDING.max(least),
-            Guard::Stop(_) => {
-                let speed = (size * self.smooth.gravity).sqrt();
-                speed * START_ROUNDING.max(SHARE_OF_RESOLUTION * self.stick_angle.sqrt())
-            }
-            _ => size * START_ROUNDING.max(least),
+            Guard::Close(_) => 1.0,
+            Guard::Stop(_) => (size * self.smooth.gravity).sqrt(),
+            _ => size,
         }
     }
 }
