@@ -134,24 +134,15 @@ fn solved(chain: &Chain, contacts: &[Contact]) -> Option<Vec<[f64; 2]>> {
         });
         parts.sum::<f64>()
     };
-    // Contact of each unknown, and the force of the unknown along and across the face.
+    // Contact of each unknown, and the force of the unknown along and across the face. A contact has as many rows as unknowns, at the same places:
+    // λ and the gap, β⁺, β⁻ and the bounds of the slide to each side, σ and the cone; where the direction of its slip is given, the first alone.
     let mut unknowns: Vec<(usize, [f64; 2])> = Vec::new();
-    let mut rows: Vec<(usize, Row)> = Vec::new();
+    let mut firsts: Vec<usize> = Vec::with_capacity(contacts.len());
     for (index, contact) in contacts.iter().enumerate() {
+        firsts.push(unknowns.len());
         match contact.slip {
-            Some(direction) => {
-                unknowns.push((index, [-f64::from(direction) * contact.coefficient, 1.0]));
-                rows.push((index, Row::Gap));
-            }
-            None => {
-                unknowns.extend([(index, [0.0, 1.0]), (index, [1.0, 0.0]), (index, [-1.0, 0.0]), (index, [0.0, 0.0])]);
-                rows.extend([
-                    (index, Row::Gap),
-                    (index, Row::Slide(1.0)),
-                    (index, Row::Slide(-1.0)),
-                    (index, Row::Cone),
-                ]);
-            }
+            Some(direction) => unknowns.push((index, [-f64::from(direction) * contact.coefficient, 1.0])),
+            None => unknowns.extend([[0.0, 1.0], [1.0, 0.0], [-1.0, 0.0], [0.0, 0.0]].map(|force| (index, force))),
         }
     }
     // Row of changes: d(change)/d(unknown).
@@ -161,25 +152,25 @@ fn solved(chain: &Chain, contacts: &[Contact]) -> Option<Vec<[f64; 2]>> {
             .map(|k| force[k] * response(&jacobians[at][axis], &jacobians[*by][k]))
             .sum::<f64>()
     };
-    let size = rows.len();
+    let size = unknowns.len();
     let (mut m, mut q) = (vec![0.0; size * size], vec![0.0; size]);
-    for (row, &(at, kind)) in rows.iter().enumerate() {
-        let own = &mut m[row * size..(row + 1) * size];
-        match kind {
-            Row::Gap => {
-                q[row] = contacts[at].free[1];
-                own.iter_mut().zip(&unknowns).for_each(|(entry, unknown)| *entry = change(at, 1, unknown));
+    for (at, (contact, &first)) in contacts.iter().zip(&firsts).enumerate() {
+        let mut changes = |row: usize, axis: usize, sign: f64| {
+            q[row] = sign * contact.free[axis];
+            let entries = m[row * size..(row + 1) * size].iter_mut().zip(&unknowns);
+            entries.for_each(|(entry, unknown)| *entry = sign * change(at, axis, unknown));
+        };
+        changes(first, 1, 1.0);
+        if contact.slip.is_none() {
+            let bound = first + 3;
+            for (row, sign) in [(first + 1, 1.0), (first + 2, -1.0)] {
+                changes(row, 0, sign);
             }
-            Row::Slide(sign) => {
-                q[row] = sign * contacts[at].free[0];
-                own.iter_mut().zip(&unknowns).for_each(|(entry, unknown)| *entry = sign * change(at, 0, unknown));
-                // Plus `σ`, the bound of the slide: the last unknown of the contact.
-                own[if sign > 0.0 { row + 2 } else { row + 1 }] += 1.0;
+            for row in [first + 1, first + 2] {
+                m[row * size + bound] += 1.0;
             }
-            Row::Cone => {
-                own[row - 3] = contacts[at].coefficient;
-                (own[row - 2], own[row - 1]) = (-1.0, -1.0);
-            }
+            let cone = &mut m[bound * size..(bound + 1) * size];
+            (cone[first], cone[first + 1], cone[first + 2]) = (contact.coefficient, -1.0, -1.0);
         }
     }
     let z = lemke(&m, &q)?;
@@ -187,17 +178,6 @@ fn solved(chain: &Chain, contacts: &[Contact]) -> Option<Vec<[f64; 2]>> {
         contacts[at].free[axis] + unknowns.iter().zip(&z).map(|(unknown, z)| z * change(at, axis, unknown)).sum::<f64>()
     };
     Some((0..contacts.len()).map(|at| [total(at, 0), total(at, 1)]).collect())
-}
-
-/// What a row of the problem says.
-#[derive(Clone, Copy)]
-enum Row {
-    /// The gap does not close.
-    Gap,
-    /// The slide away from this side is no faster than the bound `σ`: `σ ± s >= 0`.
-    Slide(f64),
-    /// The tangential force is within the cone.
-    Cone,
 }
 
 /// Forces and moments on the blocks of a unit force of a contact along an axis: with the axis on the upper block, against it on the lower one.

@@ -252,42 +252,12 @@ impl Mode {
         times: &[f64],
         options: &IntegrateOptions,
     ) -> Result<Vec<Vec<f64>>, IntegrateError> {
-        let expected = 2 * self.equations.dof();
-        if x.len() != expected {
-            return Err(IntegrateError::StateLength { expected, found: x.len() });
-        }
-        let IntegrateOptions { rtol, atol, step, gravity, .. } = *options;
-        let sizes = [
-            ("rtol", rtol, TIGHTEST_RTOL),
-            ("atol", atol, f64::MIN_POSITIVE),
-            ("step", step, f64::MIN_POSITIVE),
-            ("gravity", gravity, f64::MIN),
-        ];
-        let is_size = |value: f64, least: f64| value.is_finite() && value >= least;
-        if let Some((name, value, _)) = sizes.into_iter().find(|(_, value, least)| !is_size(*value, *least)) {
-            return Err(IntegrateError::Options { name, value });
-        }
-        if let Some((index, &value)) = x.iter().enumerate().find(|(_, value)| !value.is_finite()) {
-            return Err(IntegrateError::State { index, value });
-        }
-        let mut least = f64::NEG_INFINITY;
-        for (index, &time) in times.iter().enumerate() {
-            if !(time.is_finite() && time >= least) {
-                return Err(IntegrateError::Times { index, time });
-            }
-            least = time;
-        }
+        self.check_state(x)?;
+        options.check()?;
+        check_times(times, segments)?;
         let (Some(&first), Some(&last)) = (times.first(), times.last()) else { return Ok(Vec::new()) };
         let tolerance = Tolerance { rtol: options.rtol, atol: options.atol };
         let mut integrator = self.integrator(options.method, options.gravity, options.rtol, options.step);
-        let uncovered = |time: f64| segments.iter().all(|segment| time < segment.start || time > segment.end);
-        if let Some((index, &time)) = times.iter().enumerate().find(|(_, time)| uncovered(**time)) {
-            return Err(IntegrateError::Times { index, time });
-        }
-        let is_gap = |pair: &&[Segment]| pair[0].end != pair[1].start && pair[0].end < last && pair[1].start > first;
-        if let Some(pair) = segments.windows(2).find(is_gap) {
-            return Err(IntegrateError::Gap { time: pair[0].end });
-        }
         let (mut t, mut states) = (first, vec![x.to_vec()]);
         let (mut suggested, mut has_begun) = (f64::INFINITY, false);
         for segment in segments.iter().filter(|segment| segment.end > first) {
@@ -325,6 +295,53 @@ impl Mode {
         // Times equal to the first one.
         states.resize_with(times.len(), || x.to_vec());
         Ok(states)
+    }
+
+    /// Refuses a state of another length, or with numbers that are not finite.
+    fn check_state(&self, x: &[f64]) -> Result<(), IntegrateError> {
+        let expected = 2 * self.equations.dof();
+        if x.len() != expected {
+            return Err(IntegrateError::StateLength { expected, found: x.len() });
+        }
+        match x.iter().enumerate().find(|(_, value)| !value.is_finite()) {
+            Some((index, &value)) => Err(IntegrateError::State { index, value }),
+            None => Ok(()),
+        }
+    }
+}
+
+impl IntegrateOptions {
+    /// Refuses tolerances, steps and gravity with which an integration would not end.
+    fn check(&self) -> Result<(), IntegrateError> {
+        let sizes = [
+            ("rtol", self.rtol, TIGHTEST_RTOL),
+            ("atol", self.atol, f64::MIN_POSITIVE),
+            ("step", self.step, f64::MIN_POSITIVE),
+            ("gravity", self.gravity, f64::MIN),
+        ];
+        let is_size = |value: f64, least: f64| value.is_finite() && value >= least;
+        match sizes.into_iter().find(|(_, value, least)| !is_size(*value, *least)) {
+            Some((name, value, _)) => Err(IntegrateError::Options { name, value }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Refuses times that do not ascend, and segments that do not cover them.
+fn check_times(times: &[f64], segments: &[Segment]) -> Result<(), IntegrateError> {
+    let mut least = f64::NEG_INFINITY;
+    for (index, &time) in times.iter().enumerate() {
+        let is_covered = segments.iter().any(|segment| segment.start <= time && time <= segment.end);
+        if !(time.is_finite() && time >= least && is_covered) {
+            return Err(IntegrateError::Times { index, time });
+        }
+        least = time;
+    }
+    let (Some(&first), Some(&last)) = (times.first(), times.last()) else { return Ok(()) };
+    let is_gap = |pair: &&[Segment]| pair[0].end != pair[1].start && pair[0].end < last && pair[1].start > first;
+    match segments.windows(2).find(is_gap) {
+        Some(pair) => Err(IntegrateError::Gap { time: pair[0].end }),
+        None => Ok(()),
     }
 }
 

@@ -16,6 +16,7 @@ use rocking::pattern::Pattern;
 use rocking::run_folder::Results;
 use rocking::{Block, Column, EventKind, StopReason};
 use serde_json::json;
+use std::fmt::Write as _;
 
 /// More rows than this are thinned: a page of a few megabytes opens on a phone, one of a hundred does not.
 const MOST_ROWS: usize = 20_000;
@@ -185,81 +186,96 @@ impl Ground {
 pub fn json(results: &Results) -> String {
     let ground = Ground::new(results);
     let frames = frames(results, &ground);
-    let column = &results.column;
+    let (patterns, states) = distinct_patterns(&frames);
+    let head = head(results, &patterns).to_string();
+    // Numbers of lists are rounded text, of which `json!` knows nothing: lists are written after its keys.
+    let mut text = head.trim_end_matches('}').to_string();
+    for (key, values) in [("pattern", list(states))].into_iter().chain(channels(results, &frames)) {
+        let _ = write!(text, ",\n\"{key}\":{values}");
+    }
+    text.push('}');
+    script(&text)
+}
+
+/// The different patterns of the frames, and for each frame the index of its pattern, as text.
+fn distinct_patterns<'f>(frames: &'f [Frame]) -> (Vec<&'f Pattern>, Vec<String>) {
     let mut patterns: Vec<&Pattern> = Vec::new();
-    let states: Vec<String> = frames
-        .iter()
-        .map(|frame| {
-            let known = patterns.iter().position(|pattern| **pattern == frame.pattern);
-            let index = known.unwrap_or_else(|| {
-                patterns.push(&frame.pattern);
-                patterns.len() - 1
-            });
-            index.to_string()
+    let mut index_of = |pattern: &'f Pattern| {
+        patterns.iter().position(|known| *known == pattern).unwrap_or_else(|| {
+            patterns.push(pattern);
+            patterns.len() - 1
         })
-        .collect();
-    let blocks = 0..column.len();
+    };
+    let indices = frames.iter().map(|frame| index_of(&frame.pattern).to_string()).collect();
+    (patterns, indices)
+}
+
+/// What does not change from frame to frame: the column, the patterns, and the events.
+fn head(results: &Results, patterns: &[&Pattern]) -> serde_json::Value {
+    let column = &results.column;
     let contact = |interface: usize| {
         let ([left, right], slide) = (column.contact(interface), column.slides()[interface]);
         let centre = 0.5 * (left + right);
         [column.contact_half_width(interface), centre, centre - slide]
     };
-    let contact: Vec<[f64; 3]> = blocks.clone().map(contact).collect();
+    let contact: Vec<[f64; 3]> = (0..column.len()).map(contact).collect();
     let size = |block: &Block| [block.bottom_half_width, block.top_half_width, block.half_height];
     let sizes: Vec<[f64; 3]> = column.blocks().iter().map(size).collect();
-    let round: Vec<bool> = blocks.clone().map(|block| results.shape(block) == Shape::Drum).collect();
-    let patterns: Vec<_> = patterns
-        .iter()
-        .map(|pattern| {
-            let mode = pattern.mode();
-            json!({
-                "signs": pattern.signs(),
-                "text": pattern.to_string(),
-                "mode": mode.map(|(label, _)| label.to_string()),
-                "mirrored": mode.is_some_and(|(_, mirrored)| mirrored),
-                "link": pattern.linkage().link_of_block(),
-            })
+    let round: Vec<bool> = (0..column.len()).map(|block| results.shape(block) == Shape::Drum).collect();
+    let pattern = |pattern: &&Pattern| {
+        let mode = pattern.mode();
+        json!({
+            "signs": pattern.signs(),
+            "text": pattern.to_string(),
+            "mode": mode.map(|(label, _)| label.to_string()),
+            "mirrored": mode.is_some_and(|(_, mirrored)| mirrored),
+            "link": pattern.linkage().link_of_block(),
         })
-        .collect();
+    };
+    let patterns: Vec<_> = patterns.iter().map(pattern).collect();
     let fills: Vec<&str> = (0..=column.len()).map(fill).collect();
     // The player's status line names each event.
-    let events: Vec<_> = results
-        .response
-        .events
-        .iter()
-        .map(|event| json!({ "t": event.t, "kind": event.kind, "at": interfaces(event), "mode": event.mode }))
-        .collect();
-    let head = json!({
+    let event =
+        |event: &Event| json!({ "t": event.t, "kind": event.kind, "at": interfaces(event), "mode": event.mode });
+    let events: Vec<_> = results.response.events.iter().map(event).collect();
+    json!({
         "blocks": sizes, "round": round, "contact": contact, "gravity": column.gravity(), "fills": fills,
         "patterns": patterns, "rest": rest(&results.response), "events": events, "angles": largest_shown(results),
-    });
-    let list = |numbers: Vec<String>| format!("[{}]", numbers.join(","));
+    })
+}
+
+/// A JSON list of numbers, given as text.
+fn list(numbers: Vec<String>) -> String {
+    format!("[{}]", numbers.join(","))
+}
+
+/// The lists of numbers over the frames, as JSON: times, angles, rates, joints, and acceleration and displacement of the ground.
+fn channels(results: &Results, frames: &[Frame]) -> [(&'static str, String); 8] {
+    let blocks = 0..results.column.len();
+    let over_frames = |number: &dyn Fn(&Frame) -> String| list(frames.iter().map(number).collect());
     let per_block = |number: &dyn Fn(&Frame, usize) -> String| {
-        list(blocks.clone().map(|block| list(frames.iter().map(|frame| number(frame, block)).collect())).collect())
+        list(blocks.clone().map(|block| over_frames(&|frame| number(frame, block))).collect())
     };
     // Either all frames of a run have joints, or none has.
-    let has_joints = frames.iter().all(|frame| frame.joints.len() == column.len());
-    let joint = |block: usize, part: usize| {
-        list(frames.iter().map(|frame| fixed(frame.joints[block][part], JOINT_DIGITS)).collect())
-    };
-    let of_block = |block: usize| list((0..3).map(|part| joint(block, part)).collect());
+    let has_joints = frames.iter().all(|frame| frame.joints.len() == results.column.len());
+    let part = |block: usize, part: usize| over_frames(&|frame| fixed(frame.joints[block][part], JOINT_DIGITS));
+    let of_block = |block: usize| list((0..3).map(|index| part(block, index)).collect());
     let joints = if has_joints { list(blocks.clone().map(of_block).collect()) } else { "null".into() };
-    let theta = per_block(&|frame, block| fixed(frame.theta[block], ANGLE_DIGITS));
-    let omega = per_block(&|frame, block| significant(frame.omega[block], RATE_DIGITS));
-    // `{:?}` is the shortest text that reads back to the same bits.
-    let t = list(frames.iter().map(|frame| format!("{:?}", frame.t)).collect());
-    let peaks = results.peak_ground_acceleration;
-    let channel = |quantity: usize, axis: usize| match peaks[axis] > 0.0 {
-        true => list(frames.iter().map(|frame| fixed(frame.ground[quantity][axis], GROUND_DIGITS)).collect()),
+    let ground = |quantity: usize, axis: usize| match results.peak_ground_acceleration[axis] > 0.0 {
+        true => over_frames(&|frame| fixed(frame.ground[quantity][axis], GROUND_DIGITS)),
         false => "null".into(),
     };
-    let [ax, ay, dx, dy] = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(quantity, axis)| channel(quantity, axis));
-    let head = head.to_string();
-    let head = head.trim_end_matches('}');
-    script(&format!(
-        "{head},\n\"t\":{t},\n\"theta\":{theta},\n\"omega\":{omega},\n\"joints\":{joints},\n\"pattern\":{},\n\"ax\":{ax},\n\"ay\":{ay},\n\"dx\":{dx},\n\"dy\":{dy}}}",
-        list(states)
-    ))
+    [
+        // `{:?}` is the shortest text that reads back to the same bits.
+        ("t", over_frames(&|frame| format!("{:?}", frame.t))),
+        ("theta", per_block(&|frame, block| fixed(frame.theta[block], ANGLE_DIGITS))),
+        ("omega", per_block(&|frame, block| significant(frame.omega[block], RATE_DIGITS))),
+        ("joints", joints),
+        ("ax", ground(0, 0)),
+        ("ay", ground(0, 1)),
+        ("dx", ground(1, 0)),
+        ("dy", ground(1, 1)),
+    ]
 }
 
 /// The largest angle that the player's curves show `[rad]`, as in the figures. `None` if the column does not overturn: all angles are shown.

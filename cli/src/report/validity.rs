@@ -223,6 +223,28 @@ fn at(value: String, extreme: Option<&Extreme>) -> String {
 
 /// HTML text: friction demand and smallest normal force per interface, the top one first, with their meaning; slides or separations; warnings.
 pub fn details(results: &Results) -> String {
+    let response = &results.response;
+    let mut text = needs_table(results);
+    if let Some(validity) = &response.validity {
+        text.push_str(&durations(validity));
+    }
+    match &response.sliding {
+        Some(report) => text.push_str(&slides(report)),
+        None => text.push_str(
+            "<p>In the model blocks rock about their corners; they neither slide nor fly. The friction demand is the coefficient that an \
+             interface needs so as not to slide; a normal force that falls to zero is a block about to lift off.</p>\n",
+        ),
+    }
+    text.push_str(&fall(results));
+    if response.sliding.is_none() {
+        text.push_str(&separations(results));
+    }
+    text.push_str(&warnings(results));
+    text
+}
+
+/// Table of friction demand and smallest normal force per interface, the top one first. Empty without recorded forces.
+fn needs_table(results: &Results) -> String {
     let (response, column) = (&results.response, &results.column);
     let (demands, forces) = response.counted_forces();
     let contacts = response.validity.as_ref().map(|validity| &validity.contacts);
@@ -251,52 +273,47 @@ pub fn details(results: &Results) -> String {
             significant(weight, 4),
         );
     }
-    let mut text = String::new();
-    if !rows.is_empty() {
-        let available = results.friction.as_ref().map_or("the scene names no coefficient".into(), |friction| {
-            format!("the scene has {}", coefficients(friction))
-        });
-        let _ = write!(
-            text,
-            "<div class=\"wide\"><table class=\"needs\">\n<caption>Per interface, the top one first; interface 1 is under block 1, θ is the angle of the block \
-             above. Friction: {available}.</caption>\n\
-             <thead><tr><th scope=\"col\">interface</th><th scope=\"col\">largest friction demand |T|/N</th>\
-             <th scope=\"col\">smallest normal force [N]</th><th scope=\"col\">weight above [N]</th></tr></thead>\n\
-             <tbody>\n{rows}</tbody></table></div>\n"
-        );
+    if rows.is_empty() {
+        return rows;
     }
-    if let Some(validity) = &response.validity {
-        text.push_str(&durations(validity));
+    let available = results.friction.as_ref().map_or("the scene names no coefficient".into(), |friction| {
+        format!("the scene has {}", coefficients(friction))
+    });
+    format!(
+        "<div class=\"wide\"><table class=\"needs\">\n<caption>Per interface, the top one first; interface 1 is under block 1, θ is the angle of the block \
+         above. Friction: {available}.</caption>\n\
+         <thead><tr><th scope=\"col\">interface</th><th scope=\"col\">largest friction demand |T|/N</th>\
+         <th scope=\"col\">smallest normal force [N]</th><th scope=\"col\">weight above [N]</th></tr></thead>\n\
+         <tbody>\n{rows}</tbody></table></div>\n"
+    )
+}
+
+/// Up to when the contacts of a column that overturns count; empty for any other.
+fn fall(results: &Results) -> String {
+    let response = &results.response;
+    let (Some(validity), Some(fallen), None) = (&response.validity, response.overturned_at(), &response.sliding) else {
+        return String::new();
+    };
+    format!(
+        "<p>The column overturns at t = {} s. Contacts count up to the point of no return, t = {} s: from then on some block is past its \
+             balance, and falls. What its contacts would need in the fall does not change the outcome.</p>\n",
+        significant(fallen, 5),
+        significant(validity.until, 5)
+    )
+}
+
+/// The warnings of the run as a list, folded where there are many; empty without warnings.
+fn warnings(results: &Results) -> String {
+    if results.warnings.is_empty() {
+        return String::new();
     }
-    match &response.sliding {
-        Some(report) => text.push_str(&slides(report)),
-        None => text.push_str(
-            "<p>In the model blocks rock about their corners; they neither slide nor fly. The friction demand is the coefficient that an \
-             interface needs so as not to slide; a normal force that falls to zero is a block about to lift off.</p>\n",
-        ),
+    let list: String =
+        results.warnings.iter().map(|warning| format!("<li>{}</li>", escape(&with_minus(warning)))).collect();
+    let list = format!("<ul class=\"warnings\">{list}</ul>");
+    match results.warnings.len() {
+        0..=WARNINGS_SHOWN => format!("<h3>Warnings of the run</h3>\n{list}\n"),
+        count => format!("<details><summary>{count} warnings of the run</summary>\n{list}</details>\n"),
     }
-    if let (Some(validity), Some(fallen), None) = (&response.validity, response.overturned_at(), &response.sliding) {
-        let _ = writeln!(
-            text,
-            "<p>The column overturns at t = {} s. Contacts count up to the point of no return, t = {} s: from then on some block is past its \
-             balance, and falls. What its contacts would need in the fall does not change the outcome.</p>",
-            significant(fallen, 5),
-            significant(validity.until, 5)
-        );
-    }
-    if response.sliding.is_none() {
-        text.push_str(&separations(results));
-    }
-    if !results.warnings.is_empty() {
-        let list: String =
-            results.warnings.iter().map(|warning| format!("<li>{}</li>", escape(&with_minus(warning)))).collect();
-        let list = format!("<ul class=\"warnings\">{list}</ul>");
-        let _ = match results.warnings.len() {
-            0..=WARNINGS_SHOWN => writeln!(text, "<h3>Warnings of the run</h3>\n{list}"),
-            count => writeln!(text, "<details><summary>{count} warnings of the run</summary>\n{list}</details>"),
-        };
-    }
-    text
 }
 
 /// Table of the times for which each contact needs more than the [`COEFFICIENTS`], and for which it would pull. Empty if all times are zero.

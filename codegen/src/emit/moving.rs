@@ -1,9 +1,8 @@
 //! The module of the programs with translations, and the excerpt for one program.
 
-use super::expression::Writer;
 use super::layout::{count, doc, format, heading};
-use super::quantity::{TRANSLATIONS, group};
-use super::step::StateNames;
+use super::quantity::TRANSLATIONS;
+use super::step::statements;
 use crate::catalogue::map_in_order;
 use crate::moving::{MovingRecord, covered};
 use crate::optimise::Program;
@@ -84,18 +83,7 @@ fn program(record: &MovingRecord) -> TokenStream {
 
 fn body(record: &MovingRecord, program: &Program) -> TokenStream {
     let Some(routine) = program.routines.first() else { return TokenStream::new() };
-    let statements = routine.statements.iter().map(|statement| (statement.name.as_str(), statement.value));
-    let mut writer = Writer::new(&program.arena, statements, &routine.outputs, &StateNames);
-    let mut previous: Option<&str> = None;
-    for statement in &routine.statements {
-        if let Some(text) = group(&statement.name, previous) {
-            writer.heading(text);
-        }
-        writer.bind(&statement.name, statement.symbol, statement.value);
-        previous = Some(&statement.name);
-    }
-    let outputs: Vec<TokenStream> = routine.outputs.iter().map(|output| writer.read(*output)).collect();
-    let lets = writer.finish();
+    let (lets, outputs) = statements(program, routine);
     let [_, _, size] = sizes(record);
     let (matrix, loads) = outputs.split_at(size * size);
     let rows = matrix.chunks(size).map(|row| quote! { [#(#row),*] });

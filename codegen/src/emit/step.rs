@@ -182,11 +182,8 @@ pub fn sized() -> TokenStream {
     }
 }
 
-/// Body of a routine: inputs, statements, results.
-fn body(program: &Program, name: &str, literals: &HashMap<String, f64>) -> TokenStream {
-    let Some(routine) = program.routines.iter().find(|routine| routine.name == name) else {
-        return TokenStream::new();
-    };
+/// The statements of a routine as `let`s, and its outputs.
+pub fn statements(program: &Program, routine: &Routine) -> (Vec<TokenStream>, Vec<TokenStream>) {
     let statements = routine.statements.iter().map(|statement| (statement.name.as_str(), statement.value));
     let mut writer = Writer::new(&program.arena, statements, &routine.outputs, &StateNames);
     let mut previous: Option<&str> = None;
@@ -198,7 +195,15 @@ fn body(program: &Program, name: &str, literals: &HashMap<String, f64>) -> Token
         previous = Some(&statement.name);
     }
     let outputs: Vec<TokenStream> = routine.outputs.iter().map(|output| writer.read(*output)).collect();
-    let lets = writer.finish();
+    (writer.finish(), outputs)
+}
+
+/// Body of a routine: inputs, statements, results.
+fn body(program: &Program, name: &str, literals: &HashMap<String, f64>) -> TokenStream {
+    let Some(routine) = program.routines.iter().find(|routine| routine.name == name) else {
+        return TokenStream::new();
+    };
+    let (lets, outputs) = statements(program, routine);
     let result = match routine.name {
         "mass_matrix" | "weights" => {
             let rows = outputs.chunks(program.dof).map(|row| quote! { [#(#row),*] });
@@ -250,7 +255,7 @@ fn destructure(array: &str, names: &[String], words: &HashSet<&str>, is_slice: b
 }
 
 /// Names of parts that statements share: turned vectors and products.
-pub struct StateNames;
+struct StateNames;
 
 impl Style for StateNames {
     fn shared(&self, arena: &Arena, part: Expr) -> Option<String> {

@@ -153,15 +153,6 @@ impl Page<'_> {
         self.notation.tex(self.arena, symbol)
     }
 
-    /// `left = right` in lines that fit.
-    fn equation(&self, left: &str, right: &Formula) -> Vec<String> {
-        let mut lines = right.lines(DISPLAY - width(left) - width("="));
-        for (position, line) in lines.iter_mut().enumerate() {
-            *line = if position == 0 { format!("{left} &= {line}") } else { format!("&{line}") };
-        }
-        lines
-    }
-
     /// A display of equations, each a list of lines. If `numbered`, the last line of each equation has a number.
     fn display(&mut self, equations: &[Vec<String>], numbered: bool) {
         if equations.is_empty() {
@@ -236,7 +227,7 @@ impl Page<'_> {
         self.section("Positions of the centroids", "Relative to the moving ground, in metres:");
         let mut rows = Vec::new();
         for (index, position) in self.compact.positions.iter().enumerate() {
-            rows.push(self.equation(&format!("\\mathbf{{G}}_{{{}}}", index + 1), &self.position(position)));
+            rows.push(equation(&format!("\\mathbf{{G}}_{{{}}}", index + 1), &self.position(position)));
         }
         self.display(&rows, true);
         let levers = &self.compact.lever;
@@ -252,7 +243,7 @@ impl Page<'_> {
                 let symbols = self.vector([lever[0].symbol, lever[1].symbol]);
                 let mut values = Formula::new(self.arena, self.notation);
                 values.add_tex(&self.vector([lever[0].value, lever[1].value]));
-                self.equation(&format!("{name} = {symbols}"), &values)
+                equation(&format!("{name} = {symbols}"), &values)
             })
             .collect();
         self.display(&rows, false);
@@ -313,7 +304,7 @@ impl Page<'_> {
     }
 
     fn definition(&self, definition: &Definition) -> Vec<String> {
-        self.equation(&self.tex(definition.symbol), &self.formula(&[definition.value]))
+        equation(&self.tex(definition.symbol), &self.formula(&[definition.value]))
     }
 
     fn energies(&mut self, minus_potential: Expr) {
@@ -330,8 +321,7 @@ impl Page<'_> {
             lagrangian.start_line();
         }
         lagrangian.add(minus_potential);
-        let rows =
-            [("T", kinetic), ("V", potential), ("L", lagrangian)].map(|(left, right)| self.equation(left, &right));
+        let rows = [("T", kinetic), ("V", potential), ("L", lagrangian)].map(|(left, right)| equation(left, &right));
         self.display(&rows, true);
     }
 
@@ -353,12 +343,7 @@ impl Page<'_> {
                     }
                     group.iter().for_each(|&part| formula.add(part));
                 }
-                let mut lines = formula.lines(DISPLAY - width("=0"));
-                lines.iter_mut().for_each(|line| line.insert(0, '&'));
-                if let Some(last) = lines.last_mut() {
-                    last.push_str(" = 0");
-                }
-                lines
+                equation_to_zero(&formula)
             })
             .collect();
         self.display(&rows, true);
@@ -379,7 +364,7 @@ impl Page<'_> {
         );
         let pairs = (0..dof).flat_map(|a| (a + 1..dof).map(move |b| (a, b)));
         let couplings: Vec<Vec<String>> =
-            pairs.map(|(a, b)| self.equation(&entry(a, b), &self.formula(&[self.compact.mass[a][b]]))).collect();
+            pairs.map(|(a, b)| equation(&entry(a, b), &self.formula(&[self.compact.mass[a][b]]))).collect();
         self.section(
             "Mass matrix",
             &format!(
@@ -399,7 +384,7 @@ impl Page<'_> {
             counted(listing.operations.divisions, "division"),
         );
         self.section("Step-time program", &text);
-        let row = |(name, value): &(Expr, Expr)| self.equation(&self.tex(*name), &self.formula(&[*value]));
+        let row = |(name, value): &(Expr, Expr)| equation(&self.tex(*name), &self.formula(&[*value]));
         let constants: Vec<Vec<String>> = listing.constants.iter().map(row).collect();
         let statements: Vec<Vec<String>> = listing.statements.iter().map(row).collect();
         if !constants.is_empty() {
@@ -412,6 +397,25 @@ impl Page<'_> {
             listing.outputs.iter().map(|&output| format!("${}$", self.formula(&[output]).inline())).collect();
         let _ = writeln!(self.out, "Its results, $\\ddot\\theta$ link by link: {}.", joined(&outputs));
     }
+}
+
+/// `left = right` in lines that fit.
+pub(super) fn equation(left: &str, right: &Formula) -> Vec<String> {
+    let mut lines = right.lines(DISPLAY - width(left) - width("="));
+    for (position, line) in lines.iter_mut().enumerate() {
+        *line = if position == 0 { format!("{left} &= {line}") } else { format!("&{line}") };
+    }
+    lines
+}
+
+/// `left = 0` in lines that fit.
+pub(super) fn equation_to_zero(left: &Formula) -> Vec<String> {
+    let mut lines = left.lines(DISPLAY - width("=0"));
+    lines.iter_mut().for_each(|line| line.insert(0, '&'));
+    if let Some(last) = lines.last_mut() {
+        last.push_str(" = 0");
+    }
+    lines
 }
 
 /// Numbers, from 1, of the members for which `holds`.

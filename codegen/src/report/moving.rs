@@ -1,14 +1,14 @@
 //! The derivation of states that slide or fly as plain text and LaTeX, operation counts, and the code of their program.
 
-use super::latex::{DISPLAY, counted, document, joined};
-use super::text::program_text;
+use super::latex::{counted, document, equation, equation_to_zero, joined};
+use super::text::{numbered, program_text};
 use crate::emit;
 use crate::joints::{Carrier, Joint, Joints, Slip};
 use crate::mechanics::{Coordinate, Kind, Quantities, Rows, Vector, rows_of_motion};
 use crate::moving::MovingRecord;
 use crate::optimise::{Operations, count_expressions, count_hoisted};
 use crate::pattern::Interface;
-use crate::symbolic::latex::{Formula, Notation, Place, width};
+use crate::symbolic::latex::{Formula, Notation, Place};
 use crate::symbolic::{Arena, Expr};
 use std::fmt::Write;
 
@@ -36,10 +36,6 @@ pub fn moving_text(joints: &Joints) -> String {
     let entries = (0..size).flat_map(|a| (0..size).map(move |b| (a, b)));
     let entries = entries.map(|(a, b)| (format!("M_{}_{}", a + 1, b + 1), rows.matrix[a][b]));
     section(&mut out, &arena, "Matrix of the second derivatives, not symmetric where an interface slides", entries);
-    let numbered = |name: &'static str, values: &[Expr]| -> Vec<(String, Expr)> {
-        let values = values.iter().copied().enumerate();
-        values.map(|(index, value)| (format!("{name}_{}", index + 1), value)).collect()
-    };
     section(&mut out, &arena, "Rate terms", numbered("B", &rows.bias));
     let forcing = numbered("Q", &rows.forcing);
     section(
@@ -296,12 +292,7 @@ impl Sections<'_> {
             .map(|terms| {
                 let mut formula = Formula::new(self.arena, &self.notation);
                 terms.iter().for_each(|term| formula.add_tex(term));
-                let mut lines = formula.lines(DISPLAY - width("=0"));
-                lines.iter_mut().for_each(|line| line.insert(0, '&'));
-                if let Some(last) = lines.last_mut() {
-                    last.push_str(" = 0");
-                }
-                lines
+                equation_to_zero(&formula)
             })
             .collect();
         display(out, &equations);
@@ -407,15 +398,6 @@ fn motion(rows: &Rows, directions: &[Direction], notation: &Notation, arena: &Ar
         motion.push(terms);
     }
     motion
-}
-
-/// `left = right` in lines that fit.
-fn equation(left: &str, right: &Formula) -> Vec<String> {
-    let mut lines = right.lines(DISPLAY - width(left) - width("="));
-    for (position, line) in lines.iter_mut().enumerate() {
-        *line = if position == 0 { format!("{left} &= {line}") } else { format!("&{line}") };
-    }
-    lines
 }
 
 fn display(out: &mut String, equations: &[Vec<String>]) {

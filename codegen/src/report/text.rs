@@ -78,7 +78,7 @@ pub(super) fn title(pattern: &Pattern) -> String {
     format!("{name} of {blocks} block(s), pattern {pattern}, {dof} free angle(s)\n{}\n", pivots.join(", "))
 }
 
-fn numbered(name: &str, values: &[Expr]) -> Vec<(String, Expr)> {
+pub(super) fn numbered(name: &str, values: &[Expr]) -> Vec<(String, Expr)> {
     values.iter().enumerate().map(|(index, value)| (format!("{name}_{}", index + 1), *value)).collect()
 }
 
