@@ -13,8 +13,8 @@ use pyo3::types::{PyDict, PyList};
 use rocking::Fate;
 use rocking::intensity::Intensity;
 use rocking::studies::{
-    self, Cells, Fragility, FragilityOptions, IdaFile, IdaOutcome, Layout, LimitState, MOST_REPLICATES,
-    Observation, RunError,
+    self, Cells, Fragility, FragilityOptions, IdaFile, IdaOutcome, Layout, LimitState, MOST_REPLICATES, Observation,
+    RunError,
 };
 use rocking::sweep::ERROR;
 use std::path::PathBuf;

@@ -218,13 +218,11 @@ impl<O: Output> Step<'_, '_, O> {
         if rate < -self.staying(guard) {
             return if start > 0.0 { first_crossing(|s| value(self, s), start, limit) } else { Some(0.0) };
         }
-        let above_start = |step: &mut Self, s: f64| value(step, s) - start;
-        let is_gap = rate > self.staying(guard);
         // A gap that opens faster than those of contacts that stay has left its start once it is above rounding.
-        let (value, clear): (&dyn Fn(&mut Self, f64) -> f64, f64) = match is_gap {
-            true => (&above_start, CLEAR_MULTIPLE * START_ROUNDING * self.unit(guard)),
-            false => (value, CLEAR_MULTIPLE * noise),
-        };
+        let is_gap = rate > self.staying(guard);
+        let clear = CLEAR_MULTIPLE * if is_gap { START_ROUNDING * self.unit(guard) } else { noise };
+        let above = if is_gap { start } else { 0.0 };
+        let value = &|step: &mut Self, s: f64| value(step, s) - above;
         let [near, end] = self.leaving(value, limit, clear);
         let one = value(self, near);
         if one <= clear {
