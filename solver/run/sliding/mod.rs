@@ -45,7 +45,7 @@ const AT_ONCE: f64 = 1e-12;
 const HOPS_AT_ONCE: f64 = 3.0;
 
 /// Events in one instant, per block and one more, beyond which a run cannot go on.
-const MOST_EVENTS_AT_ONCE: usize = 16;
+const MOST_EVENTS_AT_ONCE: usize = 64;
 
 /// Events in one instant, per block and one more, after which contact laws are applied with the ground's acceleration of a little later. Where all
 /// forces vanish, as where vertical motion lifts a column off, rounding decides between states, and none of them lasts.
