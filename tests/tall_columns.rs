@@ -103,13 +103,16 @@ fn shaken(drums: usize, seed: u64) -> Scene {
 #[test]
 #[ignore = "a measurement of some minutes: run with --ignored --nocapture"]
 fn columns_of_many_drums_without_an_answer() {
-    for (drums, columns, most) in [(8, 24, 0), (12, 24, 0), (20, 16, 4), (30, 8, 3)] {
+    let mut too_many = Vec::new();
+    for (drums, columns, most) in [(8, 24, 0), (12, 24, 0), (20, 16, 3), (30, 8, 3)] {
         let is_undetermined = |seed: &u64| {
             let run = simulate(&shaken(drums, *seed)).expect("a run");
             run.status == StopReason::Undetermined
         };
         let undetermined: Vec<u64> = (0..columns).filter(is_undetermined).collect();
         println!("{drums} drums: {} of {columns} without an answer: {undetermined:?}", undetermined.len());
-        assert!(undetermined.len() <= most, "{drums} drums: {undetermined:?}");
+        too_many.extend((undetermined.len() > most).then_some(drums));
     }
+    // All are counted first: the counts are what is measured.
+    assert!(too_many.is_empty(), "more than the best so far: columns of {too_many:?} drums");
 }

@@ -54,6 +54,10 @@ pub struct ContactTimes {
     pub free: f64,
 }
 
+/// Share of the largest energy below which the work of the ground is no scale. While everything sticks that work is a difference of energies, whose
+/// rounding was taken for work where the ground does not move.
+const LEAST_SHARE_OF_GROUND: f64 = 1e-6;
+
 impl SlidingReport {
     /// Whether the report has one entry per interface in each list, and finite slides, energies and instants.
     pub(crate) fn is_of(&self, blocks: usize) -> bool {
@@ -82,13 +86,14 @@ impl SlidingReport {
         self.way_slid[interface] > 0.0 || self.flights[interface] > 0
     }
 
-    /// Error of the energy balance, relative to its largest term, of the ground the energy exchanged; `None` where nothing slid or flew, or only the outcome
-    /// was wanted.
+    /// Error of the energy balance, relative to the work of the ground or, where that is less than a millionth of the largest term, to this term; `None`
+    /// where nothing slid or flew, or only the outcome was wanted.
     pub fn balance(&self) -> Option<f64> {
         let SlidingReport { ground_work, friction_work, impact_losses, ground_exchange, energy_change, .. } = *self;
         let open = ground_work + friction_work - impact_losses - energy_change;
         let largest = friction_work.abs().max(impact_losses.abs()).max(energy_change.abs()).max(ground_exchange);
-        (self.is_any() && largest > 0.0).then(|| (open / largest).abs())
+        let scale = if ground_work.abs() > LEAST_SHARE_OF_GROUND * largest { ground_work.abs() } else { largest };
+        (self.is_any() && scale > 0.0).then(|| (open / scale).abs())
     }
 
     /// What a user must know before believing a run with friction.

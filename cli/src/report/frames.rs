@@ -189,7 +189,7 @@ pub fn json(results: &Results) -> String {
     let (patterns, states) = distinct_patterns(&frames);
     let head = head(results, &patterns).to_string();
     // Numbers of lists are rounded text, of which `json!` knows nothing: lists are written after its keys.
-    let mut text = head.trim_end_matches('}').to_string();
+    let mut text = head.strip_suffix('}').unwrap_or(&head).to_string();
     for (key, values) in [("pattern", list(states))].into_iter().chain(channels(results, &frames)) {
         let _ = write!(text, ",\n\"{key}\":{values}");
     }

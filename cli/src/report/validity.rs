@@ -73,7 +73,7 @@ fn judge_sliding(results: &Results, report: &SlidingReport) -> Verdict {
         Some(error) if error <= BALANCE => {
             let _ = write!(why, ", and the energy balance closes to {}", significant(error, 1));
         }
-        Some(error) => notes.push(format!("the energy balance is open by {} of its largest term", percent(error))),
+        Some(error) => notes.push(format!("the energy balance is open by {} of the work done", percent(error))),
         None => {}
     }
     for (instants, what) in [
