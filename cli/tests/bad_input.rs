@@ -1,8 +1,7 @@
 //! Bad input ends with status 2 and names file, line, key and remedy; nothing is written.
 
-mod common;
-
-use std::path::Path;
+use crate::common::sweeps::{SWEEP, folder};
+use crate::common::{Folder, failed};
 
 const SCENE: &str = "[[block]]
 half_width = 0.4
@@ -19,19 +18,12 @@ const AT2: &str = "OWN NUMBERS\nNOWHERE\nACCELERATION TIME SERIES IN UNITS OF G\
 
 /// Runs a scene that must be refused; the message must hold all of `named`.
 fn refused(scene: &str, named: &[&str]) {
-    let folder = tempfile::tempdir().expect("a folder");
-    std::fs::write(folder.path().join("scene.toml"), scene).expect("written");
-    std::fs::write(folder.path().join("word.AT2"), format!("{AT2} .1 .2 x3 .4\n")).expect("written");
-    std::fs::write(folder.path().join("short.AT2"), format!("{AT2} .1 .2 .3\n")).expect("written");
-    let output = common::rocking(folder.path(), &["run", "scene.toml", "--out", "out"]);
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{scene}\n{message}");
-    assert!(message.contains("scene.toml"), "{message}");
-    for part in named {
-        assert!(message.contains(part), "`{part}` is missing in\n{message}\nof\n{scene}");
-    }
-    assert!(!message.contains("panicked"), "{message}");
-    assert!(!folder.path().join("out").exists(), "something was written for\n{scene}");
+    let folder = Folder::with("scene.toml", scene);
+    folder.write("word.AT2", format!("{AT2} .1 .2 x3 .4\n"));
+    folder.write("short.AT2", format!("{AT2} .1 .2 .3\n"));
+    let output = folder.rocking("run scene.toml --out out");
+    failed(&output, 2, scene, &[&["scene.toml"], named].concat());
+    assert!(!folder.has("out"), "something was written for\n{scene}");
 }
 
 /// The scene with one line replaced.
@@ -233,39 +225,10 @@ fn types_and_syntax() {
 
 #[test]
 fn a_scene_that_is_not_there_or_not_text() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let output = common::rocking(folder.path(), &["run", "scene.toml", "--out", "out"]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("scene.toml"));
-    std::fs::write(folder.path().join("scene.toml"), b"title = \"\xff\"\n").expect("written");
-    let output = common::rocking(folder.path(), &["run", "scene.toml", "--out", "out"]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("line 1 is not UTF-8"));
-}
-
-/// Nobody, root included, can make a folder below a file.
-#[test]
-fn an_output_folder_that_cannot_be_written() {
-    let folder = tempfile::tempdir().expect("a folder");
-    std::fs::write(folder.path().join("scene.toml"), SCENE).expect("written");
-    std::fs::write(folder.path().join("file"), "").expect("written");
-    let out = Path::new("file").join("out");
-    let output = common::rocking(folder.path(), &["run", "scene.toml", "--out", &out.to_string_lossy()]);
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{message}");
-    assert!(message.contains("file") && message.contains("--out"), "{message}");
-}
-
-#[test]
-fn an_earlier_result_survives_a_refused_scene() {
-    let folder = tempfile::tempdir().expect("a folder");
-    std::fs::write(folder.path().join("scene.toml"), SCENE).expect("written");
-    common::succeeds(folder.path(), &["run", "scene.toml", "--out", "out"]);
-    let before = std::fs::read(folder.path().join("out/response.csv")).expect("written");
-    std::fs::write(folder.path().join("scene.toml"), with("omega = 10.0", "omega = -1")).expect("written");
-    assert_eq!(common::rocking(folder.path(), &["run", "scene.toml", "--out", "out"]).status.code(), Some(2));
-    assert_eq!(std::fs::read(folder.path().join("out/response.csv")).expect("still there"), before);
-    assert_eq!(std::fs::read_dir(folder.path().join("out")).expect("a folder").count(), 3, "no temporary file is left");
+    let folder = Folder::new();
+    folder.refused("run scene.toml --out out", &["scene.toml"]);
+    folder.write("scene.toml", b"title = \"\xff\"\n");
+    folder.refused("run scene.toml --out out", &["line 1 is not UTF-8"]);
 }
 
 #[test]
@@ -310,13 +273,111 @@ fn times_of_rows_that_no_run_has() {
     refused("times = [0.5]\ndt = 0.1", &["`dt` is given as well", "remove one of the two"]);
 }
 
+#[cfg(unix)]
 #[test]
-fn results_that_cannot_be_put_in_place() {
-    let folder = tempfile::tempdir().expect("a folder");
-    std::fs::write(folder.path().join("scene.toml"), SCENE).expect("written");
-    std::fs::create_dir_all(folder.path().join("out/response.csv")).expect("made");
-    let output = common::rocking(folder.path(), &["run", "scene.toml", "--out", "out"]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("response.csv"));
-    assert_eq!(std::fs::read_dir(folder.path().join("out")).expect("a folder").count(), 1, "nothing is put beside it");
+fn only_regular_files_up_to_a_size_are_read() {
+    let folder = folder(SWEEP);
+    let pipe = std::process::Command::new("mkfifo").arg(folder.path("pipe")).status();
+    assert!(pipe.is_ok_and(|status| status.success()));
+    let large = std::fs::File::create(folder.path("large")).expect("made");
+    large.set_len(1 << 41).expect("a sparse file");
+    folder.succeeds("run base.toml");
+    for (file, problem) in [("/dev/zero", "device or a pipe"), ("pipe", "device or a pipe"), ("large", "at most")] {
+        for arguments in [
+            "run",
+            "check",
+            "thresholds",
+            "sweep",
+            "plot",
+            "record",
+            "init new.toml --record",
+            "merge m.csv",
+            "merge m.csv sweep.csv --sweep",
+        ] {
+            folder.refused(&format!("{arguments} {file}"), &[file, problem]);
+        }
+    }
+    folder.remove("out/events.json");
+    folder.link("/dev/zero", "out/events.json");
+    for command in ["plot", "report"] {
+        folder.refused(&format!("{command} out"), &["events.json", "device or a pipe", "run the scene again"]);
+    }
+}
+
+/// A base scene is read as any scene is: no device, nothing without end. One that is missing is a fault of the key that names it.
+#[test]
+fn base_scenes_are_regular_files_and_named_by_their_key() {
+    let folder = folder("scene = \"no.toml\"\n[axes]\neta = [0.9]\n");
+    folder.write("study.toml", "scene = \"no.toml\"\nmeasure = \"pga\"\n");
+    for file in ["sweep.toml", "study.toml"] {
+        let named = [file, "line 1", "`scene`", "no.toml: No such file", "relative to this file"];
+        folder.refused(&format!("check {file}"), &named);
+    }
+    if cfg!(unix) {
+        for file in ["sweep.toml", "study.toml"] {
+            let text = folder.read(file).replace("no.toml", "/dev/zero");
+            folder.write(file, text);
+            folder.refused(&format!("check {file}"), &[file, "`scene`", "/dev/zero: this is a device or a pipe"]);
+        }
+    }
+}
+
+/// Each of the three commands says which one a file is for.
+#[test]
+fn files_of_another_kind_are_sent_to_their_command() {
+    let folder = folder(SWEEP);
+    folder.write("study.toml", "scene = \"base.toml\"\nmeasure = \"pga\"\n");
+    let [run, sweep, ida] = ["run --out out", "sweep", "ida --out ida.csv"];
+    for (command, file, named) in [
+        (run, "sweep.toml", "`rocking sweep`"),
+        (run, "study.toml", "`rocking ida`"),
+        (sweep, "base.toml", "`rocking run`"),
+        (sweep, "study.toml", "`rocking ida`"),
+        (ida, "base.toml", "`rocking run`"),
+        (ida, "sweep.toml", "`rocking sweep`"),
+    ] {
+        folder.refused(&format!("{command} {file}"), &[file, "give it to", named]);
+    }
+}
+
+/// A negative number after an option is its value, and the range of the option says what is wrong.
+#[test]
+fn negative_values_of_options_are_out_of_range() {
+    let folder = Folder::with("scene.toml", SCENE);
+    folder.write("a.csv", "t (s),a (m/s2)\n0,0\n0.01,1\n0.02,0\n");
+    for (arguments, named) in [
+        ("record a.csv --pga -0.3", ["'-0.3'", "--pga"]),
+        ("record a.csv --sa -1", ["'-1'", "--sa"]),
+        ("plot out --width -5", ["'-5'", "--width"]),
+        ("sweep scene.toml --threads -1", ["'-1'", "--threads"]),
+    ] {
+        let message = folder.refused(arguments, &named);
+        assert!(message.contains("invalid value") && !message.contains("-- "), "{message}");
+    }
+    let turned = folder.succeeds("record a.csv --scale -2");
+    assert!(turned.contains("PGA"), "{turned}");
+}
+
+/// `slide` and `x` both say where blocks are: the motion followed `x`, slenderness and peaks `slide`.
+#[test]
+fn slides_of_blocks_that_are_placed_are_refused() {
+    let placed = "[initial]\nx = [0.0, 0.0]\ny = [0.78, 2.34]\nvx = [0.0, 0.0]\nvy = [0.0, 0.0]\nslide = [0.0, 0.3]\n";
+    let column = "friction = 0.5\n[column]\nblocks = 2\nhalf_width = 0.4\nhalf_height = 1.56\n";
+    let folder = Folder::with("scene.toml", &format!("{column}{placed}"));
+    folder.refused("check scene.toml", &["line 11", "initial.slide", "leave it out"]);
+    folder.write("scene.toml", format!("{column}{}", placed.replace("0.3]", "0.0]")));
+    folder.succeeds("check scene.toml");
+}
+
+#[test]
+fn a_kind_that_is_misspelt_is_guessed() {
+    let folder = Folder::new();
+    folder.succeeds("init");
+    let text = folder.read("scene.toml");
+    for (kind, guess) in
+        [("antisymetric-ricker", "antisymmetric-ricker"), ("sine_pulse", "sine-pulse"), ("gabour", "gabor")]
+    {
+        folder.write("scene.toml", text.replace("\"sine-pulse\"", &format!("\"{kind}\"")));
+        folder.refused("check scene.toml", &[&format!("did you mean `{guess}`?")]);
+    }
 }

@@ -1,10 +1,8 @@
 //! How figures are written: width on paper, degrees, PDF, names of blocks.
 
-mod common;
-
-use common::{rocking, root, succeeds};
+use crate::common::figures::words;
+use crate::common::{Folder, assert_has, project};
 use roxmltree::Document;
-use std::path::Path;
 
 /// Two blocks with names, one of them long.
 const STATUE: &str = "[[block]]\nname = \"pedestal\"\nhalf_width = 0.45\nhalf_height = 0.5\n\
@@ -12,30 +10,18 @@ const STATUE: &str = "[[block]]\nname = \"pedestal\"\nhalf_width = 0.45\nhalf_he
     [excitation.horizontal]\nkind = \"sine-pulse\"\namplitude_g = 0.35\nperiod = 0.6\n[solver]\nt_end = 6.0\n";
 
 /// A folder with a run of a scene.
-fn run(scene: &str) -> (tempfile::TempDir, String) {
-    let folder = tempfile::tempdir().expect("a folder");
-    std::fs::write(folder.path().join("s.toml"), scene).expect("written");
-    let told = succeeds(folder.path(), &["run", "s.toml", "--no-trust"]);
+fn run(scene: &str) -> (Folder, String) {
+    let folder = Folder::with("s.toml", scene);
+    let told = folder.succeeds("run s.toml --no-trust");
     (folder, told)
-}
-
-fn read(folder: &Path, name: &str) -> String {
-    std::fs::read_to_string(folder.join(name)).expect("written")
-}
-
-fn words(figure: &str) -> Vec<String> {
-    let document = Document::parse(figure).expect("XML");
-    let texts = document.descendants().filter(|node| node.has_tag_name("text")).filter_map(|node| node.text());
-    texts.map(String::from).collect()
 }
 
 #[test]
 fn angles_are_drawn_in_degrees_on_request() {
     let (folder, _) = run(STATUE);
-    let path = folder.path();
-    succeeds(path, &["plot", "out", "--out", "natural"]);
-    succeeds(path, &["plot", "out", "--out", "degrees", "--degrees"]);
-    let of = |name: &str| words(&read(path, name));
+    folder.succeeds("plot out --out natural");
+    folder.succeeds("plot out --out degrees --degrees");
+    let of = |name: &str| words(&folder.read(name));
     let (natural, degrees) = (of("natural/time-history.svg"), of("degrees/time-history.svg"));
     assert!(natural.contains(&"Angles θᵢ/αᵢ".into()) && degrees.contains(&"Angles θᵢ [°]".into()), "{degrees:?}");
     // The slenderness of the statue on its interface, atan(0.25 / 0.9).
@@ -48,16 +34,12 @@ fn angles_are_drawn_in_degrees_on_request() {
     );
     // Nothing else has angles.
     for name in ["energy", "forces"] {
-        assert_eq!(read(path, &format!("natural/{name}.svg")), read(path, &format!("degrees/{name}.svg")));
+        assert_eq!(folder.read(&format!("natural/{name}.svg")), folder.read(&format!("degrees/{name}.svg")));
     }
     // Of a sweep, the slenderness.
-    std::fs::write(
-        path.join("sweep.toml"),
-        "scene = \"s.toml\"\nask = \"peaks\"\n[axes]\nalpha = [0.2, 0.3]\np = [1, 2, 3]\n",
-    )
-    .expect("written");
-    succeeds(path, &["sweep", "sweep.toml"]);
-    succeeds(path, &["plot", "sweep.csv", "--degrees"]);
+    folder.write("sweep.toml", "scene = \"s.toml\"\nask = \"peaks\"\n[axes]\nalpha = [0.2, 0.3]\np = [1, 2, 3]\n");
+    folder.succeeds("sweep sweep.toml");
+    folder.succeeds("plot sweep.csv --degrees");
     let found = of("sweep.svg");
     assert!(found.contains(&format!("α = {:.1}°", 0.2f64.to_degrees())), "{found:?}");
 }
@@ -65,11 +47,10 @@ fn angles_are_drawn_in_degrees_on_request() {
 #[test]
 fn a_figure_is_laid_out_for_the_width_of_its_paper() {
     let (folder, _) = run(STATUE);
-    let path = folder.path();
     for (width, pixels) in [("85", 408.0), ("150", 720.0), ("200", 960.0)] {
-        succeeds(path, &["plot", "out", "--out", width, "--width", width]);
+        folder.succeeds(&format!("plot out --out {width} --width {width}"));
         for name in ["time-history", "phase-portrait", "energy", "forces"] {
-            let figure = read(path, &format!("{width}/{name}.svg"));
+            let figure = folder.read(&format!("{width}/{name}.svg"));
             let document = Document::parse(&figure).expect("XML");
             let root = document.root_element();
             assert_eq!(root.attribute("width"), Some(&*format!("{width}.00mm")));
@@ -94,16 +75,15 @@ fn a_figure_is_laid_out_for_the_width_of_its_paper() {
             }
         }
     }
-    let output = rocking(path, &["plot", "out", "--width", "20"]);
-    assert!(output.status.code() == Some(2) && String::from_utf8_lossy(&output.stderr).contains("give 80 to 500 mm"));
+    folder.refused("plot out --width 20", &["give 80 to 500 mm"]);
 }
 
 #[test]
 fn blocks_have_their_names_in_the_text_of_a_run_and_in_its_figures() {
     let (folder, told) = run(STATUE);
-    assert!(told.contains("base first: pedestal 0.") && told.contains(", statue of the emperor Augustus 0."), "{told}");
-    succeeds(folder.path(), &["plot", "out"]);
-    let found = words(&read(folder.path(), "out/time-history.svg"));
+    assert_has(&told, &["base first: pedestal 0.", ", statue of the emperor Augustus 0."]);
+    folder.succeeds("plot out");
+    let found = words(&folder.read("out/time-history.svg"));
     assert!(found.iter().any(|word| word.starts_with("block 1 (pedestal), α₁ = ")), "{found:?}");
     // Legends stay short.
     assert!(found.iter().any(|word| word.starts_with("block 2 (statue of the e…), α₂ = ")), "{found:?}");
@@ -121,48 +101,20 @@ fn blocks_have_their_names_in_the_text_of_a_run_and_in_its_figures() {
     assert!(told.contains("largest |θ|/α, base first: 0."), "{told}");
 }
 
-/// Three blocks that slide as one: their energy is ½ m v².
-#[test]
-fn energies_of_blocks_that_slide_are_drawn() {
-    let (folder, _) = run("friction = 0.3\n[column]\nblocks = 3\nhalf_width = 0.4\nhalf_height = 1.2\n\
-        [excitation.horizontal]\nkind = \"sine-pulse\"\namplitude_g = 0.7\nperiod = 0.8\n");
-    let told = succeeds(folder.path(), &["plot", "out"]);
-    let table = read(folder.path(), "out/response.csv");
-    let header: Vec<&str> = table.lines().next().expect("a header").split(',').collect();
-    let place = header.iter().position(|name| *name == "vx_1").expect("velocities");
-    let speeds = table
-        .lines()
-        .skip(1)
-        .map(|line| line.split(',').nth(place).expect("a cell").parse::<f64>().expect("a number").abs());
-    // 0.8 m by 2.4 m, 1 kg/m².
-    let largest = 0.5 * 0.8 * 2.4 * speeds.fold(0.0, f64::max).powi(2);
-    let (_, caption) = told.split_once("Largest: ").expect("in the caption");
-    let found: f64 = caption.split(' ').next().expect("a number").parse().expect("a number");
-    assert!(largest > 0.1 && (found / largest - 1.0).abs() < 5e-3, "{found} {largest}");
-    // The name of the end keeps clear of the curves.
-    let figure = read(folder.path(), "out/slides.svg");
-    assert!(words(&figure).contains(&"at rest".into()));
-}
-
 /// All kinds of figures: of a run, a sweep, a study, a record, and the modes.
 #[cfg(feature = "pdf")]
 #[test]
 fn figures_of_all_kinds_are_written_as_pdf() {
     let (folder, _) = run(STATUE);
-    let path = folder.path();
-    std::fs::write(
-        path.join("sweep.toml"),
-        "scene = \"s.toml\"\n[axes]\namplitude_g = [0.2, 0.3, 1.0]\nperiod = [0.5, 1.0]\n",
-    )
-    .expect("written");
-    let record = root().join("ground/tests/records/peer/RSN9001_HOLLOW_MIL000.AT2").display().to_string();
-    succeeds(path, &["plot", "out", "--format", "pdf"]);
-    succeeds(path, &["plot", "out", "--format", "pdf", "--width", "85", "--out", "narrow"]);
-    succeeds(path, &["sweep", "sweep.toml", "--plot", "f.pdf"]);
-    succeeds(path, &["record", &record, "--plot", "r.pdf"]);
-    succeeds(path, &["modes", "--blocks", "2", "--svg", "m.pdf"]);
+    folder.write("sweep.toml", "scene = \"s.toml\"\n[axes]\namplitude_g = [0.2, 0.3, 1.0]\nperiod = [0.5, 1.0]\n");
+    let record = project("ground/tests/records/peer/RSN9001_HOLLOW_MIL000.AT2");
+    folder.succeeds("plot out --format pdf");
+    folder.succeeds("plot out --format pdf --width 85 --out narrow");
+    folder.succeeds("sweep sweep.toml --plot f.pdf");
+    folder.succeeds(&["record", &record, "--plot", "r.pdf"]);
+    folder.succeeds("modes --blocks 2 --svg m.pdf");
     let page = |name: &str| -> Vec<f64> {
-        let bytes = std::fs::read(path.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let bytes = folder.bytes(name);
         assert!(bytes.starts_with(b"%PDF-"), "{name}");
         let text = String::from_utf8_lossy(&bytes).into_owned();
         let (_, found) = text.split_once("/MediaBox").expect("a page");
@@ -184,19 +136,14 @@ fn figures_of_all_kinds_are_written_as_pdf() {
     assert!((page("narrow/energy.pdf")[2] - 85.0 / 25.4 * 72.0).abs() < 0.1);
     assert!(page("m.pdf")[2] > 100.0);
     // The same bytes again.
-    let before = std::fs::read(path.join("out/forces.pdf")).expect("written");
-    succeeds(path, &["plot", "out", "--format", "pdf"]);
-    assert!(before == std::fs::read(path.join("out/forces.pdf")).expect("written"));
+    let before = folder.bytes("out/forces.pdf");
+    folder.succeeds("plot out --format pdf");
+    assert!(before == folder.bytes("out/forces.pdf"));
 }
 
 #[cfg(not(feature = "pdf"))]
 #[test]
 fn a_build_without_pdf_says_how_to_get_it() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let output = rocking(folder.path(), &["record", &root().join("r").display().to_string(), "--plot", "r.pdf"]);
-    let message = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(
-        output.status.code() == Some(2) && message.contains("PDF needs a build with `--features pdf`"),
-        "{message}"
-    );
+    let named = ["PDF needs a build with `--features pdf`"];
+    Folder::new().refused(&["record", &project("r"), "--plot", "r.pdf"], &named);
 }

@@ -1,10 +1,8 @@
 //! Runs in which blocks slide and fly, as a user sees them.
 
-mod common;
-
-use common::succeeds;
+use crate::common::{Folder, assert_has};
+use roxmltree::Document;
 use serde_json::Value;
-use std::path::Path;
 
 /// Two wide blocks: they slide and do not rock.
 const SLIDES: &str = "title = \"Two slabs\"
@@ -41,30 +39,21 @@ duration = 2.0
 ";
 
 /// Runs a scene in `folder` into `out`. Returns what is printed.
-fn run(folder: &Path, scene: &str) -> String {
-    std::fs::write(folder.join("scene.toml"), scene).expect("written");
-    succeeds(folder, &["run", "scene.toml", "--out", "out", "--report", "--plots"])
-}
-
-fn summary(folder: &Path) -> Value {
-    let text = std::fs::read_to_string(folder.join("out/summary.json")).expect("a summary");
-    serde_json::from_str(&text).expect("JSON")
-}
-
-fn page(folder: &Path) -> String {
-    std::fs::read_to_string(folder.join("out/report.html")).expect("a page")
+fn run(folder: &Folder, scene: &str) -> String {
+    folder.write("scene.toml", scene);
+    folder.succeeds("run scene.toml --out out --report --plots")
 }
 
 #[test]
 fn a_run_says_where_each_block_stayed() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let account = run(folder.path(), SLIDES);
-    let sliding = summary(folder.path())["sliding"].clone();
+    let folder = Folder::new();
+    let account = run(&folder, SLIDES);
+    let sliding = folder.summary()["sliding"].clone();
     let residual: Vec<f64> =
         sliding["residual_slide"].as_array().expect("a list").iter().flat_map(Value::as_f64).collect();
     assert!(residual.iter().all(|slide| slide.abs() > 1e-5), "{residual:?}");
     assert!(account.contains(&format!(", {:.3} cm; 0 flight(s)", 100.0 * residual[1])), "{account}");
-    let page = page(folder.path());
+    let page = folder.page();
     let stayed = page.lines().find(|line| line.contains("Where the blocks stayed")).expect("the sentence");
     for (block, slide) in residual.iter().enumerate() {
         let side = if *slide > 0.0 { "right" } else { "left" };
@@ -78,19 +67,19 @@ fn a_run_says_where_each_block_stayed() {
 /// Drums with names, displaced at the start; and a column that is lost, which stays nowhere.
 #[test]
 fn a_page_tells_slides_at_the_start_and_none_of_a_column_that_is_lost() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = Folder::new();
     let drums = SLIDES
         .replace("half_width = 1.0\nhalf_height = 0.4", "name = \"slab\"\ndiameter = 2.0\nheight = 0.8\ndensity = 2700")
         .replace("[solver]", "[initial]\nslide = [0.0, -0.1]\n[solver]");
-    run(folder.path(), &drums);
-    let told = page(folder.path());
+    run(&folder, &drums);
+    let told = folder.page();
     let stayed = told.lines().find(|line| line.contains("Where the drums stayed")).expect("the sentence");
     assert!(stayed.contains("<li>block 1 (slab): ") && !stayed.contains("block 1: "), "{stayed}");
     assert!(stayed.contains(" on block 1 (10&nbsp;cm to the left at the start)</li>"), "{stayed}");
     assert_eq!(stayed.matches("at the start").count(), 1, "{stayed}");
     let far = SLIDES.replace("amplitude_g = 0.5", "amplitude_g = 1.0").replace("omega = 6.0", "omega = 0.8");
-    run(folder.path(), &far.replace("t_end = 3.0", "t_end = 12.0").replace("half_width = 1.0", "half_width = 0.9"));
-    let told = page(folder.path());
+    run(&folder, &far.replace("t_end = 3.0", "t_end = 12.0").replace("half_width = 1.0", "half_width = 0.9"));
+    let told = folder.page();
     assert!(told.contains("<strong>collapses</strong>") && told.contains("Slid to and fro: "));
     assert!(!told.contains("Where the blocks"), "where it was when it was lost");
     let (_, length) = told.split_once("<dt>Longest run</dt><dd>12 s; this one ends at t = ").expect("its length");
@@ -100,32 +89,27 @@ fn a_page_tells_slides_at_the_start_and_none_of_a_column_that_is_lost() {
 /// While a block flies there is no contact: no force, no friction demand, and no slide.
 #[test]
 fn free_interfaces_have_neither_force_nor_demand_nor_slide() {
-    let folder = tempfile::tempdir().expect("a folder");
-    run(folder.path(), THROWN);
-    let mut reader = csv::Reader::from_path(folder.path().join("out/response.csv")).expect("written");
-    let head = reader.headers().expect("a head").clone();
-    let rows: Vec<csv::StringRecord> = reader.records().map(|row| row.expect("as written")).collect();
-    let of = |row: &csv::StringRecord, name: String| -> f64 {
-        row[head.iter().position(|own| own == name).expect("a column")].parse().expect("a number")
-    };
+    let folder = Folder::new();
+    run(&folder, THROWN);
+    let response = folder.table("out/response.csv");
     let mut free = 0;
-    for (row, interface) in rows.iter().flat_map(|row| (1..=3).map(move |interface| (row, interface))) {
-        if of(row, format!("gap_{interface}")) > 0.0 {
+    for (row, interface) in response.rows().flat_map(|row| (1..=3).map(move |interface| (row, interface))) {
+        if row.number(&format!("gap_{interface}")) > 0.0 {
             free += 1;
-            let forces = ["normal", "tangential"].map(|name| of(row, format!("{name}_{interface}")));
-            assert_eq!(forces, [0.0; 2], "t = {}, interface {interface}", &row[0]);
+            let forces = ["normal", "tangential"].map(|name| row.number(&format!("{name}_{interface}")));
+            assert_eq!(forces, [0.0; 2], "t = {}, interface {interface}", row.text("t"));
         }
     }
     assert!(free > 100, "{free}");
-    let read = |name: &str| std::fs::read_to_string(folder.path().join("out").join(name)).expect("a figure");
+    let read = |name: &str| folder.read(&format!("out/{name}"));
     let (forces, slides) = (read("forces.svg"), read("slides.svg"));
     assert!(forces.contains(" Gaps: nothing presses there") && !forces.contains("Larger demands"), "in the caption");
     assert!(forces.contains("interface 2: 0.6<") && slides.contains("interrupted while these are apart"));
     // In the tables, forces of contacts that part are zero and not rounding.
-    let page = page(folder.path());
+    let page = folder.page();
     assert!(page.contains("<td>0 (0 % of the weight)</td>") && page.contains("no rocking"));
     // Blocks that only slide have no gaps, and those with different coefficients have all of them.
-    run(folder.path(), SLIDES);
+    run(&folder, SLIDES);
     let forces = read("forces.svg");
     assert!(!forces.contains("Gaps: nothing presses"), "in the caption");
     assert!(forces.contains(">friction coefficients 0.3, 0.2, base first<"));
@@ -136,12 +120,12 @@ fn free_interfaces_have_neither_force_nor_demand_nor_slide() {
 /// On narrow paper the right edge of the frame is closer to the end of a run than a letter is high.
 #[test]
 fn the_name_of_an_ending_does_not_lie_on_the_frame() {
-    let folder = tempfile::tempdir().expect("a folder");
-    run(folder.path(), THROWN);
+    let folder = Folder::new();
+    run(&folder, THROWN);
     for (width, pixels) in [("80", 384.0), ("100", 480.0)] {
-        succeeds(folder.path(), &["plot", "out", "--width", width, "--out", "narrow"]);
-        let figure = std::fs::read_to_string(folder.path().join("narrow/slides.svg")).expect("a figure");
-        let document = roxmltree::Document::parse(&figure).expect("XML");
+        folder.succeeds(&format!("plot out --width {width} --out narrow"));
+        let figure = folder.read("narrow/slides.svg");
+        let document = Document::parse(&figure).expect("XML");
         let mut texts = document.descendants().filter(|node| node.has_tag_name("text"));
         let ending =
             texts.find(|text| text.text().is_some_and(|text| text.starts_with("overturned"))).expect("its name");
@@ -156,76 +140,60 @@ fn the_name_of_an_ending_does_not_lie_on_the_frame() {
 /// A block that is never closed has neither the largest demand nor the smallest force.
 #[test]
 fn a_contact_that_never_closed_has_no_extremes() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = Folder::new();
     let thrown = "friction = 0.6\n[column]\nblocks = 2\nhalf_width = 0.3\nhalf_height = 0.5\n[initial]\nx = [0.0, 0.1]\n\
         y = [0.35, 1.4]\nvx = [0.3, 0.5]\nvy = [0.0, 3.0]\ntheta = [0.1, -0.05]\n[solver]\nt_end = 0.3\n";
-    run(folder.path(), thrown);
-    let page = page(folder.path());
+    run(&folder, thrown);
+    let page = folder.page();
     assert!(page.contains("<th scope=\"row\">2</th><td>–</td><td>–</td>") && !page.contains("not finite"));
     assert!(page.contains("<li>block 2: in flight above block 1</li>"), "at the end of the run");
-    let figure = std::fs::read_to_string(folder.path().join("out/forces.svg")).expect("a figure");
+    let figure = folder.read("out/forces.svg");
     assert!(figure.contains(">interface 2: never closed<"));
 }
 
 #[test]
 fn friction_that_holds_is_said_to_hold() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let account = run(folder.path(), &SLIDES.replace("[0.3, 0.2]", "[0.9, 0.8]"));
+    let folder = Folder::new();
+    let account = run(&folder, &SLIDES.replace("[0.3, 0.2]", "[0.9, 0.8]"));
     assert!(account.contains("friction holds: no block slides or flies"), "{account}");
-    assert!(page(folder.path()).contains("Friction holds: no block slides or flies."));
+    assert!(folder.page().contains("Friction holds: no block slides or flies."));
 }
 
 /// Blocks placed one by one whose friction is never used up: the companions that say how far the verdict can be trusted have friction, too.
 #[test]
 fn a_block_that_is_dropped_lands_and_rests() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = Folder::new();
     let dropped = "friction = 0.9\n[[block]]\nhalf_width = 1.0\nhalf_height = 0.3\n\
                    [initial]\nx = [0.0]\ny = [1.2]\nvx = [0.0]\nvy = [0.0]\n";
-    let account = run(folder.path(), dropped);
+    let account = run(&folder, dropped);
     // From 0.9 m: √(2 · 0.9 / 9.81) s.
     assert!(account.contains("at rest from t = 0.4284 s on"), "{account}");
-    assert!(account.contains("companions agree to the end") && account.contains("1 flight(s)"), "{account}");
+    assert_has(&account, &["companions agree to the end", "1 flight(s)"]);
     // At rest from the start on.
-    let account = run(folder.path(), &dropped.replace("y = [1.2]", "y = [0.3]"));
+    let account = run(&folder, &dropped.replace("y = [1.2]", "y = [0.3]"));
     assert!(account.contains("friction holds"), "{account}");
 }
 
 #[test]
-fn a_check_counts_the_vertical_ground_motion() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let scene = "friction = 5.0\n[[block]]\nhalf_width = 0.5\nhalf_height = 0.5\n\
-                 [excitation.horizontal]\nkind = \"rectangular\"\namplitude_g = 0.8\nduration = 1.0\n\
-                 [excitation.vertical]\nkind = \"rectangular\"\namplitude_g = -0.4\nduration = 1.0\n";
-    std::fs::write(folder.path().join("scene.toml"), scene).expect("written");
-    let text = succeeds(folder.path(), &["check", "scene.toml"]);
-    // A cube opens at 1 g, and at 0.6 g while the ground falls at 0.4 g.
-    assert!(
-        text.contains("with the vertical motion it opens interface(s) 1 of the column at rest, the first at t = 0"),
-        "{text}"
-    );
-    assert!(!text.contains("at the PGA it"), "{text}");
-}
-
-#[test]
 fn a_drum_pushed_off_its_support_has_collapsed() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = Folder::new();
     let far = SLIDES.replace("amplitude_g = 0.5", "amplitude_g = 1.0").replace("omega = 6.0", "omega = 0.8");
     let account =
-        run(folder.path(), &far.replace("t_end = 3.0", "t_end = 12.0").replace("half_width = 1.0", "half_width = 0.9"));
-    assert_eq!(summary(folder.path())["status"], "collapsed", "{account}");
-    assert_eq!(summary(folder.path())["collapsed_block"], 2);
-    assert!(account.contains("collapses at t = ") && account.contains("(block 2 lost its support)"), "{account}");
-    let page = page(folder.path());
+        run(&folder, &far.replace("t_end = 3.0", "t_end = 12.0").replace("half_width = 1.0", "half_width = 0.9"));
+    assert_eq!(folder.summary()["status"], "collapsed", "{account}");
+    assert_eq!(folder.summary()["collapsed_block"], 2);
+    assert_has(&account, &["collapses at t = ", "(block 2 lost its support)"]);
+    let page = folder.page();
     assert!(page.contains("<strong>collapses</strong>") && page.contains("block 2 loses its support"));
-    let figure = std::fs::read_to_string(folder.path().join("out/time-history.svg")).expect("a figure");
+    let figure = folder.read("out/time-history.svg");
     assert!(figure.contains("collapsed"), "the end of the run is marked");
 }
 
 #[test]
 fn the_page_tells_what_slid_and_whether_the_energy_balance_closes() {
-    let folder = tempfile::tempdir().expect("a folder");
-    run(folder.path(), SLIDES);
-    let page = page(folder.path());
+    let folder = Folder::new();
+    run(&folder, SLIDES);
+    let page = folder.page();
     assert!(!page.contains("which the model excludes") && !page.contains("the blocks would slide"), "it is modelled");
     assert!(page.contains(
         "<strong>The model holds for this run</strong>: sliding and flight are part of it; interfaces 1 and 2 slid"
@@ -234,7 +202,7 @@ fn the_page_tells_what_slid_and_whether_the_energy_balance_closes() {
         page.contains("Slides per interface") && page.contains("the scene has 0.3, 0.2, base first"),
         "with coefficients"
     );
-    let sliding = summary(folder.path())["sliding"].clone();
+    let sliding = folder.summary()["sliding"].clone();
     let [ground, friction, losses, change] = ["ground_work", "friction_work", "impact_losses", "energy_change"]
         .map(|key| sliding[key].as_f64().expect("a number"));
     // Steps at the default tolerance of 1e-9 and Gauss's rule of order ten.
@@ -245,83 +213,14 @@ fn the_page_tells_what_slid_and_whether_the_energy_balance_closes() {
 
 #[test]
 fn slides_are_drawn_where_something_slides() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let out = folder.path().join("out");
-    run(folder.path(), SLIDES);
-    let figure = std::fs::read_to_string(out.join("slides.svg")).expect("a figure");
-    roxmltree::Document::parse(&figure).expect("XML");
+    let folder = Folder::new();
+    run(&folder, SLIDES);
+    let figure = folder.read("out/slides.svg");
+    Document::parse(&figure).expect("XML");
     assert!(figure.contains("Slide [cm]") && figure.contains("interface 2"), "{}", &figure[..500]);
-    assert!(page(folder.path()).contains("<figure id=\"figure-slides\">"));
+    assert!(folder.page().contains("<figure id=\"figure-slides\">"));
     // The next run of the same folder does not slide: an old figure would lie.
-    run(folder.path(), &SLIDES.replace("[0.3, 0.2]", "[0.9, 0.8]"));
-    assert!(!out.join("slides.svg").exists() && out.join("forces.svg").exists());
-    assert!(!page(folder.path()).contains("figure-slides"));
-}
-
-/// A block of t = b/h = 1/4 (FRICTION: closed form 1): its coefficients to rock without sliding at 0.5, 1 and 2 g.
-#[test]
-fn a_check_says_what_slides_before_it_rocks() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let check = |friction: f64, amplitude: f64| {
-        let scene = format!(
-            "friction = {friction}\n[column]\nblocks = 1\nhalf_width = 0.25\nhalf_height = 1.0\n\
-             [excitation.horizontal]\nkind = \"sine-pulse\"\namplitude_g = {amplitude}\nomega = 6.0\n"
-        );
-        std::fs::write(folder.path().join("scene.toml"), scene).expect("written");
-        let found: Value =
-            serde_json::from_str(&succeeds(folder.path(), &["check", "scene.toml", "--json"])).expect("JSON");
-        (succeeds(folder.path(), &["check", "scene.toml"]), found["contacts"][0].clone())
-    };
-    for (amplitude, expected) in [(0.5, 0.30986), (1.0, 0.41558), (2.0, 0.58427)] {
-        let (text, contact) = check(0.45, amplitude);
-        // Given with five digits.
-        let needed = contact["coefficient_to_rock"].as_f64().expect("a number");
-        assert!((needed - expected).abs() < 5e-6, "{needed}, {expected}");
-        let (verdict, words) = match expected < 0.45 {
-            true => ("rocks", "rocks without sliding"),
-            false => ("slides-and-rocks", "slides and rocks"),
-        };
-        assert_eq!(contact["at_pga"], verdict);
-        assert!(text.contains("interface 1 opens at 0.25 g before it slides at 0.45 g; at the PGA it"), "{text}");
-        assert!(text.contains(words), "{text}");
-    }
-    let (text, contact) = check(0.2, 0.5);
-    assert!(text.contains("interface 1 slides at 0.2 g before it opens at 0.25 g"), "{text}");
-    assert_eq!((&contact["at_pga"], contact["coefficient_to_rock"].is_null()), (&"slides".into(), true));
-    assert_eq!(check(0.2, 0.1).1["at_pga"], "rests");
-}
-
-/// A displaced block makes one side weaker, and vertical motion changes the weight: the time of the first slide or opening decides, not a threshold.
-#[test]
-fn a_check_says_what_this_ground_motion_does_first() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let check = |scene: &str| {
-        std::fs::write(folder.path().join("scene.toml"), scene).expect("written");
-        let found: Value =
-            serde_json::from_str(&succeeds(folder.path(), &["check", "scene.toml", "--json"])).expect("JSON");
-        (succeeds(folder.path(), &["check", "scene.toml"]), found["contacts"][0].clone())
-    };
-    let displaced = |amplitude: f64| {
-        format!(
-            "[friction]\nstatic = [0.4, 3.0]\n[column]\nblocks = 2\nhalf_width = 0.4\nhalf_height = 0.6\n[initial]\nslide = [0.0, 0.2]\n\
-             [excitation.horizontal]\nkind = \"rectangular\"\namplitude_g = {amplitude}\nduration = 0.05\n"
-        )
-    };
-    // The centroid is 0.1 m to the right: the base opens at 0.5 g to one side, and at 0.83 g to the other.
-    let (text, contact) = check(&displaced(0.55));
-    assert!(text.contains("interface 1 slides at 0.4 g, and opens, to its weaker side, at 0.5 g; under this ground motion it slides, at"), "{text}");
-    assert_eq!((contact["slides_from"].as_f64(), contact["opens_from"].is_null()), (Some(0.0), true));
-    let (text, contact) = check(&displaced(-0.55));
-    assert_eq!((contact["slides_from"].as_f64(), contact["opens_from"].as_f64()), (Some(0.0), Some(0.0)));
-    assert!(
-        contact["at_pga"].is_null() && text.contains("under this ground motion it passes both at t = 0.0000 s"),
-        "{text}"
-    );
-    // |ẍ| = μ (g + ÿ): 0.3 sin = 0.35 (1 - 0.4 sin).
-    let vertical = "friction = 0.35\n[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.0\n[excitation.horizontal]\nkind = \"half-sine\"\n\
-        amplitude_g = 0.3\nperiod = 1.0\n[excitation.vertical]\nkind = \"half-sine\"\namplitude_g = -0.4\nperiod = 1.0\n";
-    let (text, contact) = check(vertical);
-    let expected = (0.35f64 / (0.3 + 0.35 * 0.4)).asin() / std::f64::consts::TAU;
-    assert!((contact["slides_from"].as_f64().expect("it slides") - expected).abs() < 1e-12, "{contact}");
-    assert!(text.contains(&format!("it slides first, at t = {expected:.4} s")), "{text}");
+    run(&folder, &SLIDES.replace("[0.3, 0.2]", "[0.9, 0.8]"));
+    assert!(!folder.has("out/slides.svg") && folder.has("out/forces.svg"));
+    assert!(!folder.page().contains("figure-slides"));
 }

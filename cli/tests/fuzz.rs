@@ -1,11 +1,7 @@
 //! Mutated scenes and damaged run folders: every command ends with status 0, 1 or 2, in little memory and within ten seconds of
 //! processor time.
 
-#![cfg(unix)]
-
-mod common;
-
-use std::path::Path;
+use crate::common::Folder;
 use std::process::Stdio;
 use std::time::{Duration, Instant};
 
@@ -107,12 +103,9 @@ impl Random {
 }
 
 /// Runs a command; what is wrong with its end, if anything.
-fn fault(folder: &Path, arguments: &[&str]) -> Option<String> {
-    let mut child = common::limited(folder, arguments)
-        .stdout(Stdio::null())
-        .stderr(std::fs::File::create(folder.join("stderr")).expect("made"))
-        .spawn()
-        .expect("a shell");
+fn fault(folder: &Folder, arguments: &str) -> Option<String> {
+    let stderr = std::fs::File::create(folder.path("stderr")).expect("made");
+    let mut child = folder.limited(arguments).stdout(Stdio::null()).stderr(stderr).spawn().expect("a shell");
     let start = Instant::now();
     let status = loop {
         if let Some(status) = child.try_wait().expect("a child") {
@@ -125,7 +118,7 @@ fn fault(folder: &Path, arguments: &[&str]) -> Option<String> {
         }
         std::thread::sleep(Duration::from_millis(1));
     };
-    let message = std::fs::read_to_string(folder.join("stderr")).unwrap_or_default();
+    let message = std::fs::read_to_string(folder.path("stderr")).unwrap_or_default();
     let is_fine = matches!(status.code(), Some(0..=2)) && !message.contains("panicked");
     (!is_fine).then(|| format!("{arguments:?} ends with {status}: {message}"))
 }
@@ -143,22 +136,20 @@ fn fuzz(inputs: usize, seed: u64) {
 /// The faults of so many inputs.
 fn faults(inputs: usize, seed: u64) -> Vec<String> {
     let mut random = Random(seed);
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path();
-    std::fs::write(path.join("scene.toml"), SCENE).expect("written");
-    common::succeeds(path, &["run", "scene.toml", "--out", "run", "--quiet"]);
+    let folder = Folder::with("scene.toml", SCENE);
+    folder.succeeds("run scene.toml --out run --quiet");
     let files = ["summary.json", "events.json", "response.csv"];
-    let whole = files.map(|name| std::fs::read_to_string(path.join("run").join(name)).expect("written"));
+    let whole = files.map(|name| folder.read(&format!("run/{name}")));
     let mut faults = Vec::new();
     for input in 0..inputs {
         let (text, arguments) = if input % 2 == 0 {
             let text = random.mutated(SCENE);
-            std::fs::write(path.join("scene.toml"), &text).expect("written");
+            folder.write("scene.toml", &text);
             let command = [
-                &["run", "scene.toml", "--plots", "--report", "--quiet"][..],
-                &["check", "scene.toml"],
-                &["check", "scene.toml", "--json"],
-                &["run", "scene.toml", "--json"],
+                "run scene.toml --plots --report --quiet",
+                "check scene.toml",
+                "check scene.toml --json",
+                "run scene.toml --json",
             ];
             (text, command[random.below(command.len())])
         } else {
@@ -166,11 +157,11 @@ fn faults(inputs: usize, seed: u64) -> Vec<String> {
             let text = random.mutated(&whole[file]);
             for (place, name) in files.iter().enumerate() {
                 let content = if place == file { &text } else { &whole[place] };
-                std::fs::write(path.join("run").join(name), content).expect("written");
+                folder.write(&format!("run/{name}"), content);
             }
-            (text, [&["plot", "run"][..], &["report", "run"]][random.below(2)])
+            (text, ["plot run", "report run"][random.below(2)])
         };
-        faults.extend(fault(path, arguments).map(|fault| {
+        faults.extend(fault(&folder, arguments).map(|fault| {
             let shown: Vec<&str> = text
                 .lines()
                 .filter(|line| !whole.iter().any(|whole| whole.contains(line)) && !SCENE.contains(line))

@@ -1,12 +1,9 @@
 //! The reference of keys has what the reader takes, and nothing else.
 
-mod common;
-
-use common::succeeds;
+use crate::common::{Folder, assert_has};
 use rocking::scene_file::keys_asked_by;
 use serde_json::Value;
 use std::collections::BTreeSet;
-use std::path::Path;
 
 /// The dotted keys of a schema, without places in lists; tables within a term of a sum are those of a component.
 fn keys_of(schema: &Value) -> BTreeSet<String> {
@@ -42,7 +39,7 @@ fn keys_within(schema: &Value, part: &Value) -> BTreeSet<String> {
 }
 
 fn schema(kind: &str) -> Value {
-    serde_json::from_str(&succeeds(Path::new("."), &["keys", kind, "--schema"])).expect("JSON")
+    Folder::new().answers(&format!("keys {kind} --schema"))
 }
 
 /// A key as the schema has it: no places in lists.
@@ -138,23 +135,22 @@ fn the_schema_of_scenes_has_the_keys_that_the_reader_takes() {
 
 #[test]
 fn the_schemas_of_sweeps_and_studies_have_the_keys_that_their_readers_take() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("written");
-    write("s.toml", &format!("{COLUMN}[excitation.horizontal]\nkind = \"ricker\"\namplitude = 1\nperiod = 1\n"));
-    write(
+    let folder = Folder::with(
+        "s.toml",
+        &format!("{COLUMN}[excitation.horizontal]\nkind = \"ricker\"\namplitude = 1\nperiod = 1\n"),
+    );
+    folder.write(
         "sweep.toml",
         "scene = \"s.toml\"\n[axes]\namplitude = { from = 1, to = 2 }\nrtol = { from = 1e-9, to = 1e-6, steps = 3, scale = \"log\" }\n",
     );
-    let (read, mut asked) =
-        keys_asked_by(|| rocking::Sweep::from_file(&folder.path().join("sweep.toml")).map_err(Box::new));
+    let (read, mut asked) = keys_asked_by(|| rocking::Sweep::from_file(&folder.path("sweep.toml")).map_err(Box::new));
     read.expect("valid");
-    write(
+    folder.write(
         "sampled.toml",
         "scene = \"s.toml\"\n[axes]\neta = { normal = [0.9, 0.01] }\namplitude = { lognormal = [1, 0.2] }\nrtol = { uniform = [1e-9, 1e-8] }\n\
         gravity = { discrete = [9.8, 9.9] }\n[sampling]\nsamples = 4\ncorrelations = [{ axes = [\"eta\", \"amplitude\"], value = 0.5 }]\n",
     );
-    let (read, sampled) =
-        keys_asked_by(|| rocking::Sweep::from_file(&folder.path().join("sampled.toml")).map_err(Box::new));
+    let (read, sampled) = keys_asked_by(|| rocking::Sweep::from_file(&folder.path("sampled.toml")).map_err(Box::new));
     read.expect("valid");
     // Of the keys of the base scene, which is read as well, none is of the sweep; those of a range stand below any axis.
     asked.retain(|key| {
@@ -179,13 +175,13 @@ fn the_schemas_of_sweeps_and_studies_have_the_keys_that_their_readers_take() {
     let properties = own["properties"].as_object().expect("keys").keys().cloned().collect::<BTreeSet<_>>();
     assert_eq!(top(&asked), properties);
 
-    write(
+    folder.write(
         "study.toml",
         "scene = \"s.toml\"\nmeasure = \"sa\"\nsa_period = 1\nlevels = { from = 1, to = 2 }\n[records.synthetic]\nseeds = { from = 1, to = 2 }\n\
         [fragility]\nstates = [\"uplift\"]\n",
     );
     let (read, asked) =
-        keys_asked_by(|| rocking::studies::IdaFile::from_file(&folder.path().join("study.toml")).map_err(Box::new));
+        keys_asked_by(|| rocking::studies::IdaFile::from_file(&folder.path("study.toml")).map_err(Box::new));
     read.expect("valid");
     let known = keys_of(&schema("study"));
     let of_study = |key: &String| {
@@ -203,7 +199,7 @@ fn the_schemas_of_sweeps_and_studies_have_the_keys_that_their_readers_take() {
 
 #[test]
 fn the_list_has_units_and_defaults() {
-    let text = succeeds(Path::new("."), &["keys", "scene"]);
+    let text = Folder::new().succeeds("keys scene");
     for line in ["[solver]", "[[block]]", "[excitation.horizontal]"] {
         assert!(text.lines().any(|own| own == line), "{line}: {text}");
     }
@@ -228,13 +224,13 @@ fn the_list_has_units_and_defaults() {
             && line("kind").contains("`record`: sine-pulse | one-sine")
     );
     assert!(line("pga_g").chars().count() < 120, "{}", line("pga_g"));
-    let sweep = succeeds(Path::new("."), &["keys", "sweep"]);
+    let sweep = Folder::new().succeeds("keys sweep");
     for heading in
         ["[axes.KEY] a range of numbers", "[axes.KEY] the files of a folder", "[axes.KEY] a distribution: one of"]
     {
         assert!(sweep.lines().any(|own| own.starts_with(heading)), "{heading}: {sweep}");
     }
     assert!(sweep.lines().any(|own| own.starts_with("  lognormal ")), "{sweep}");
-    let all = succeeds(Path::new("."), &["keys"]);
-    assert!(all.contains("Study files") && all.contains("Sweep files") && all.contains("[fragility]"), "{all}");
+    let all = Folder::new().succeeds("keys");
+    assert_has(&all, &["Study files", "Sweep files", "[fragility]"]);
 }

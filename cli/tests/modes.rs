@@ -1,12 +1,12 @@
 //! `rocking modes`: the table, the drawings in it, and the figure.
 
-mod common;
-
-use std::collections::HashMap;
+use crate::common::figures::words;
+use crate::common::{Folder, project_text};
+use std::collections::{BTreeSet, HashMap};
 
 /// Lines of the table without its heading, for a column of this many blocks.
 fn table(blocks: usize) -> Vec<String> {
-    let text = common::succeeds(&common::root(), &["modes", "--blocks", &blocks.to_string()]);
+    let text = Folder::new().succeeds(&format!("modes --blocks {blocks}"));
     let rows = (3usize.pow(blocks as u32) - 1) / 2;
     let lines: Vec<String> = text.lines().map(String::from).collect();
     assert!(lines[rows + 1].starts_with(&format!("{rows} independent mode(s) of {blocks} block(s)")), "{text}");
@@ -47,7 +47,7 @@ fn columns_of_the_table_tell_pattern_free_angles_program_and_operations() {
         let fields: Vec<&str> = row.split_whitespace().collect();
         assert_eq!(fields[..4], columns, "{row}");
         assert!(row.ends_with(&format!("  {drawing}")), "{row}");
-        let derivation = common::succeeds(&common::root(), &["derive", "--blocks", "3", "--mode", columns[0]]);
+        let derivation = Folder::new().succeeds(&["derive", "--blocks", "3", "--mode", columns[0]]);
         let acceleration = derivation.lines().find(|line| line.contains("`acceleration`")).expect("in the program");
         assert!(acceleration.contains(&format!("{} flops", fields[4])), "{row}\n{acceleration}");
         assert!(acceleration.contains(&format!("{} divisions", fields[5])), "{row}\n{acceleration}");
@@ -84,36 +84,27 @@ fn drawings_show_groups_leans_and_pivots() {
 fn no_two_modes_have_the_same_drawing() {
     for blocks in 1..=5 {
         let drawings = drawings(blocks);
-        let distinct: std::collections::BTreeSet<&String> = drawings.values().collect();
+        let distinct: BTreeSet<&String> = drawings.values().collect();
         assert_eq!(distinct.len(), drawings.len());
     }
 }
 
-/// Texts of a figure.
-fn words(figure: &std::path::Path) -> Vec<String> {
-    let text = std::fs::read_to_string(figure).expect("readable");
-    let document = roxmltree::Document::parse(&text).expect("XML");
-    let texts = document.descendants().filter(|node| node.has_tag_name("text"));
-    texts.map(|node| node.descendants().filter_map(|part| part.text().filter(|_| part.is_text())).collect()).collect()
-}
-
 #[test]
 fn the_figure_of_the_readme_is_what_its_command_writes() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let text = common::succeeds(folder.path(), &["modes", "--blocks", "3", "--svg", "modes-3.svg"]);
+    let folder = Folder::new();
+    let text = folder.succeeds("modes --blocks 3 --svg modes-3.svg");
     assert_eq!(text, "wrote 13 mode(s) of 3 block(s) to modes-3.svg\n");
-    let committed = common::root().join("docs/modes-3.svg");
-    let [written, committed] = [folder.path().join("modes-3.svg"), committed].map(|path| words(&path));
-    assert!(written == committed, "renew it: rocking modes --blocks 3 --svg docs/modes-3.svg");
+    let [written, committed] = [folder.read("modes-3.svg"), project_text("docs/modes-3.svg")];
+    assert!(words(&written) == words(&committed), "renew it: rocking modes --blocks 3 --svg docs/modes-3.svg");
 }
 
 /// Pivots are the figure's only circles, one of them in the legend; a rigid group is a filled path.
 #[test]
 fn a_figure_has_every_mode_with_its_groups_and_pivots() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = Folder::new();
     for blocks in 1..=5 {
-        common::succeeds(folder.path(), &["modes", "--blocks", &blocks.to_string(), "--svg", "modes.svg"]);
-        let figure = std::fs::read_to_string(folder.path().join("modes.svg")).expect("written");
+        folder.succeeds(&format!("modes --blocks {blocks} --svg modes.svg"));
+        let figure = folder.read("modes.svg");
         for (label, pattern) in rocking::pattern::modes(blocks) {
             let angles = if pattern.dof() == 1 { "angle" } else { "angles" };
             let title = format!("<title>mode {label} {pattern}, {} free {angles}</title>", pattern.dof());
@@ -135,23 +126,27 @@ fn a_figure_has_every_mode_with_its_groups_and_pivots() {
 
 #[test]
 fn a_figure_that_nobody_could_read_is_refused() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let output = common::rocking(folder.path(), &["modes", "--blocks", "6", "--svg", "modes.svg"]);
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{message}");
-    assert!(message.contains("364 modes") && message.contains("up to 5 blocks"), "{message}");
-    assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 0, "nothing is written");
+    let folder = Folder::new();
+    folder.refused("modes --blocks 6 --svg modes.svg", &["364 modes", "up to 5 blocks"]);
+    assert_eq!(folder.names(""), [""; 0], "nothing is written");
 }
 
 #[test]
 fn a_figure_that_cannot_be_put_in_place_leaves_nothing() {
-    let folder = tempfile::tempdir().expect("a folder");
-    std::fs::create_dir(folder.path().join("taken.svg")).expect("made");
+    let folder = Folder::new();
+    folder.make_folder("taken.svg");
     for file in ["taken.svg", "no/such/folder.svg"] {
-        let output = common::rocking(folder.path(), &["modes", "--blocks", "2", "--svg", file]);
-        let message = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{message}");
-        assert!(message.contains(file) && message.contains("choose a file"), "{message}");
+        folder.refused(&format!("modes --blocks 2 --svg {file}"), &[file, "choose a file"]);
     }
-    assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 1, "no temporary file is left");
+    assert_eq!(folder.names(""), ["taken.svg"], "no temporary file is left");
+}
+
+#[test]
+fn a_figure_of_modes_has_the_format_of_its_name() {
+    let folder = Folder::new();
+    folder.succeeds("modes --blocks 2 --svg m.png");
+    assert!(folder.bytes("m.png").starts_with(b"\x89PNG\r\n\x1a\n"));
+    folder.succeeds("modes --blocks 2 --svg m.SVG");
+    assert!(folder.read("m.SVG").starts_with("<svg"));
+    folder.refused("modes --blocks 2 --svg m.jpg", &[".svg"]);
 }

@@ -1,10 +1,10 @@
 //! Figures of a run: what they claim to show is in them, and they are documents that anybody can open.
 
-mod common;
-
+use crate::common::figures::{parts, words};
+use crate::common::scenes::SCENE;
+use crate::common::{Folder, project, project_text, root};
 use roxmltree::{Document, Node};
 use serde_json::Value;
-use std::path::Path;
 
 const FIGURES: [&str; 4] = ["time-history", "phase-portrait", "energy", "forces"];
 
@@ -13,38 +13,27 @@ const STILL: &str = "[column]\nblocks = 2\nhalf_width = 0.4\nhalf_height = 1.6\n
 
 /// The figures of a scene of the project, and its summary.
 fn figures_of(scene: &str) -> (Vec<String>, Value) {
-    let scene = common::root().join("scenes").join(format!("{scene}.toml"));
-    figures_of_file(&scene)
+    let folder = Folder::new();
+    let figures = figures_in(&folder, &project(&format!("scenes/{scene}.toml")));
+    (figures, folder.summary())
 }
 
-fn figures_of_file(scene: &Path) -> (Vec<String>, Value) {
-    let folder = tempfile::tempdir().expect("a folder");
-    let text = common::succeeds(folder.path(), &["run", &scene.to_string_lossy(), "--out", "out", "--plots"]);
-    let read = |name: &str| std::fs::read_to_string(folder.path().join("out").join(name)).expect("written");
-    let figures = FIGURES.map(|name| {
+/// The figures of a scene that is written for them.
+fn figures_of_text(scene: &str) -> Vec<String> {
+    figures_in(&Folder::with("scene.toml", scene), "scene.toml")
+}
+
+fn figures_in(folder: &Folder, scene: &str) -> Vec<String> {
+    let text = folder.succeeds(&["run", scene, "--out", "out", "--plots"]);
+    let figure = |name: &str| {
         assert!(text.contains(&format!("{name}.svg")), "{text}");
-        read(&format!("{name}.svg"))
-    });
-    (figures.into(), serde_json::from_str(&read("summary.json")).expect("JSON"))
-}
-
-fn words(document: &Document) -> Vec<String> {
-    let texts = document.descendants().filter(|node| node.has_tag_name("text"));
-    texts.filter_map(|node| node.text()).map(String::from).collect()
+        folder.read(&format!("out/{name}.svg"))
+    };
+    FIGURES.map(figure).into()
 }
 
 fn number(node: &Node, attribute: &str) -> f64 {
     node.attribute(attribute).and_then(|text| text.parse().ok()).unwrap_or_else(|| panic!("{attribute} of {node:?}"))
-}
-
-/// The parts of a path: where each begins and the corners that follow.
-fn parts(path: &str) -> Vec<Vec<[f64; 2]>> {
-    let point = |text: &str| {
-        let numbers: Vec<f64> = text.split_whitespace().map(|number| number.parse().expect("a number")).collect();
-        [numbers[0], numbers[1]]
-    };
-    let parts = path.trim_end_matches('Z').split('M').filter(|part| !part.is_empty());
-    parts.map(|part| part.trim_end_matches('Z').split('L').map(point).collect()).collect()
 }
 
 fn paths<'a>(document: &'a Document) -> impl Iterator<Item = Vec<Vec<[f64; 2]>>> + 'a {
@@ -53,12 +42,9 @@ fn paths<'a>(document: &'a Document) -> impl Iterator<Item = Vec<Vec<[f64; 2]>>>
 
 #[test]
 fn figures_stand_alone_and_beside_others_and_scale() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let still = folder.path().join("still.toml");
-    std::fs::write(&still, STILL).expect("written");
     let scenes =
         ["three-drums-pulse", "paper-1-block-3.00", "five-drums-free", "two-drums-record", "paper-1-block-6.32"];
-    let drawn = scenes.map(|scene| figures_of(scene).0).into_iter().chain([figures_of_file(&still).0]);
+    let drawn = scenes.map(|scene| figures_of(scene).0).into_iter().chain([figures_of_text(STILL)]);
     for figure in drawn.flatten() {
         let document = Document::parse(&figure).expect("XML");
         let root = document.root_element();
@@ -91,7 +77,7 @@ fn a_time_history_has_a_tick_for_every_impact_and_a_name_for_every_mode() {
         let ticks = paths(&document).filter(|parts| parts.len() == impacts && parts.iter().all(upright));
         assert_eq!(ticks.count(), 1, "{scene}: {impacts} impacts");
 
-        let words = words(&document);
+        let words = words(&figures[0]);
         let slides = summary["sliding"]["way_slid"].as_array().is_some_and(|ways| ways.iter().any(|way| *way != 0.0));
         for mode in summary["time_in_mode"].as_object().expect("modes").keys() {
             // Where blocks slide, that none rocks is not rest.
@@ -117,19 +103,15 @@ fn a_time_history_has_a_tick_for_every_impact_and_a_name_for_every_mode() {
 #[test]
 fn the_figure_of_the_readme_is_what_its_command_draws() {
     let (figures, _) = figures_of("paper-3-blocks-3.00");
-    let shown = std::fs::read_to_string(common::root().join("docs/time-history.svg")).expect("it is there");
-    let said = |figure: &str| words(&Document::parse(figure).expect("XML"));
-    assert_eq!(said(&figures[0]), said(&shown));
-    let readme = std::fs::read_to_string(common::root().join("README.md")).expect("it is there");
+    let shown = project_text("docs/time-history.svg");
+    assert_eq!(words(&figures[0]), words(&shown));
+    let readme = project_text("README.md");
     assert!(readme.contains("rocking run scenes/paper-3-blocks-3.00.toml --out out/ --plots"));
 }
 
 #[test]
 fn endings_are_told() {
-    let told = |scene: &str| {
-        let figures = figures_of(scene).0;
-        words(&Document::parse(&figures[0]).expect("XML"))
-    };
+    let told = |scene: &str| words(&figures_of(scene).0[0]);
     assert!(told("paper-1-block-6.32").iter().any(|text| text == "overturned"));
     assert!(told("paper-3-blocks-7.17").iter().any(|text| text.starts_with("overturned (block ")));
     assert!(told("five-drums-free").iter().any(|text| text == "at rest"));
@@ -138,10 +120,8 @@ fn endings_are_told() {
 /// Between rows the acceleration of the ground is not drawn.
 #[test]
 fn a_caption_gives_the_interval_of_the_rows() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let scene = folder.path().join("coarse.toml");
-    std::fs::write(&scene, format!("{STILL}[output]\ndt = 0.25\n")).expect("written");
-    assert!(figures_of_file(&scene).0[0].contains(" at the rows alone (every 0.25 s, 5 rows);"));
+    let figures = figures_of_text(&format!("{STILL}[output]\ndt = 0.25\n"));
+    assert!(figures[0].contains(" at the rows alone (every 0.25 s, 5 rows);"));
 }
 
 /// At an impact the total energy falls, straight down, by what the event says; and rates jump.
@@ -166,34 +146,30 @@ fn impacts_are_drops_of_the_energy_and_jumps_of_the_rate() {
 #[test]
 fn friction_demand_is_drawn_against_what_the_scene_has() {
     let (figures, summary) = figures_of("three-drums-pulse");
-    let said = |figure: &str| words(&Document::parse(figure).expect("XML"));
-    let words = said(&figures[3]);
-    assert!(words.iter().any(|text| text == "friction coefficient 0.8"), "{words:?}");
+    let said = words(&figures[3]);
+    assert!(said.iter().any(|text| text == "friction coefficient 0.8"), "{said:?}");
     for (interface, demand) in summary["friction_demand"].as_array().expect("a list").iter().enumerate() {
         let demand = demand.as_f64().expect("a number");
         let of_interface = |text: &String| text.strip_prefix(&format!("interface {}: ", interface + 1))?.parse().ok();
-        let shown: f64 = words.iter().find_map(of_interface).expect("a number");
+        let shown: f64 = said.iter().find_map(of_interface).expect("a number");
         assert!((shown / demand - 1.0).abs() < 5e-3, "{demand}, {shown}");
     }
     let without = figures_of("five-drums-free").0;
-    assert!(!said(&without[3]).iter().any(|text| text.starts_with("friction coefficient")));
+    assert!(!words(&without[3]).iter().any(|text| text.starts_with("friction coefficient")));
 }
 
 #[test]
 fn pngs_have_the_figures_size_and_figures_are_the_same_from_run_to_run() {
-    let root = common::root();
-    let folder = tempfile::tempdir().expect("a folder");
-    common::succeeds(folder.path(), &["run", &root.join("scenes/paper-2-blocks-3.00.toml").to_string_lossy()]);
+    let folder = Folder::new();
+    folder.succeeds(&["run", &project("scenes/paper-2-blocks-3.00.toml")]);
     for (format, out) in [("svg", "first"), ("svg", "second"), ("png", "first"), ("png", "second")] {
-        let text = common::succeeds(folder.path(), &["plot", "out", "--format", format, "--out", out]);
+        let text = folder.succeeds(&format!("plot out --format {format} --out {out}"));
         assert!(text.starts_with(&format!("wrote 4 figures to {out}\n")), "{text}");
         let told = |name: &str| text.lines().any(|line| line.starts_with(&format!("{name}.{format}: ")));
         assert!(FIGURES.iter().all(|name| told(name)), "{text}");
     }
     for name in FIGURES {
-        let read = |out: &str, format: &str| {
-            std::fs::read(folder.path().join(out).join(format!("{name}.{format}"))).expect("written")
-        };
+        let read = |out: &str, format: &str| folder.bytes(&format!("{out}/{name}.{format}"));
         assert!(read("first", "svg") == read("second", "svg") && read("first", "png") == read("second", "png"));
         let (svg, png) = (String::from_utf8(read("first", "svg")).expect("text"), read("first", "png"));
         assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
@@ -206,31 +182,25 @@ fn pngs_have_the_figures_size_and_figures_are_the_same_from_run_to_run() {
 
 #[test]
 fn a_folder_that_is_not_of_a_run_is_bad_input() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let output = common::rocking(folder.path(), &["plot", "."]);
-    let message = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(2), "{message}");
-    assert!(message.contains("summary.json") && message.contains("rocking run"), "{message}");
-    assert!(std::fs::read_dir(folder.path()).expect("a folder").next().is_none(), "nothing is half written");
+    let folder = Folder::new();
+    folder.refused("plot .", &["summary.json", "rocking run"]);
+    assert_eq!(folder.names(""), [""; 0], "nothing is half written");
 }
 
 /// A hundred thousand rows of a chattering column.
 #[test]
 fn figures_of_long_runs_stay_small() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let scene = folder.path().join("long.toml");
-    let text = "[column]\nblocks = 3\nhalf_width = 0.4\nhalf_height = 1.6\n\
+    let scene = "[column]\nblocks = 3\nhalf_width = 0.4\nhalf_height = 1.6\n\
         [excitation.horizontal]\nkind = \"harmonic\"\namplitude_g = 0.5\nfrequency = 2.0\n\
         [solver]\nt_end = 200.0\n[output]\ndt = 0.002\n";
-    std::fs::write(&scene, text).expect("written");
-    for (figure, name) in figures_of_file(&scene).0.iter().zip(FIGURES) {
+    for (figure, name) in figures_of_text(scene).iter().zip(FIGURES) {
         assert!(figure.len() < 1_000_000, "{name} has {} bytes", figure.len());
     }
 }
 
 #[test]
 fn one_file_knows_the_plotting_crate() {
-    let mut folders = vec![common::root().join("cli/src")];
+    let mut folders = vec![root().join("cli/src")];
     let mut knowing = Vec::new();
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(folder).expect("a folder of the project") {
@@ -243,4 +213,44 @@ fn one_file_knows_the_plotting_crate() {
         }
     }
     assert!(knowing.len() == 1 && knowing[0].ends_with("plot/sheet.rs"), "{knowing:?}");
+}
+
+#[test]
+fn the_name_of_the_friction_line_covers_no_curve() {
+    let folder = Folder::with("scene.toml", SCENE);
+    folder.succeeds("run scene.toml --plots");
+    let figure = folder.read("out/forces.svg");
+    let document = Document::parse(&figure).expect("XML");
+    let height = |name: &str| -> f64 {
+        let mut texts = document.descendants().filter(|node| node.has_tag_name("text"));
+        let text = texts.find(|node| node.text() == Some(name)).unwrap_or_else(|| panic!("{name}"));
+        text.attribute("y").and_then(|y| y.parse().ok()).expect("a number")
+    };
+    assert!(height("friction coefficient 0.8") > height("Time [s]"), "it stands below the panels");
+    // White patches below words are the only areas of that fill.
+    let patches =
+        document.descendants().filter(|node| node.has_tag_name("path") && node.attribute("fill") == Some("#ffffff"));
+    assert_eq!(
+        patches.count(),
+        usize::from(figure.contains("overturned")) * 2 + usize::from(figure.contains("at rest")) * 2
+    );
+}
+
+/// Three blocks that slide as one: their energy is ½ m v².
+#[test]
+fn energies_of_blocks_that_slide_are_drawn() {
+    let scene = "friction = 0.3\n[column]\nblocks = 3\nhalf_width = 0.4\nhalf_height = 1.2\n\
+        [excitation.horizontal]\nkind = \"sine-pulse\"\namplitude_g = 0.7\nperiod = 0.8\n";
+    let folder = Folder::with("s.toml", scene);
+    folder.succeeds("run s.toml --no-trust");
+    let told = folder.succeeds("plot out");
+    let response = folder.table("out/response.csv");
+    let speed = response.rows().map(|row| row.number("vx_1").abs()).fold(0.0, f64::max);
+    // 0.8 m by 2.4 m, 1 kg/m².
+    let largest = 0.5 * 0.8 * 2.4 * speed.powi(2);
+    let (_, caption) = told.split_once("Largest: ").expect("in the caption");
+    let found: f64 = caption.split(' ').next().expect("a number").parse().expect("a number");
+    assert!(largest > 0.1 && (found / largest - 1.0).abs() < 5e-3, "{found} {largest}");
+    // The name of the end keeps clear of the curves.
+    assert!(words(&folder.read("out/slides.svg")).contains(&"at rest".into()));
 }

@@ -1,34 +1,23 @@
 //! `rocking record` tells what it understood of a record and what the record measures, writes it, and lists folders; scenes take
 //! the same files.
 
-mod common;
-
-use common::{rocking, root, succeeds};
+use crate::common::scenes::SCENE;
+use crate::common::{Folder, project, project_text};
+use crate::ida;
+use rocking::{Motion, Scene};
 use serde_json::Value;
-use std::path::Path;
 
+const RECORDS: &str = "ground/tests/records";
+
+/// The path of a record of the project.
 fn fixture(name: &str) -> String {
-    root().join("ground/tests/records").join(name).display().to_string()
-}
-
-fn json(folder: &Path, arguments: &[&str]) -> Value {
-    let text = succeeds(folder, &[arguments, &["--json"]].concat());
-    serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}"))
-}
-
-/// Runs what must be refused; the message must hold all of `parts`.
-fn refused(folder: &Path, arguments: &[&str], parts: &[&str]) {
-    let output = rocking(folder, arguments);
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
-    assert!(parts.iter().all(|part| message.contains(part)), "{arguments:?}: {parts:?} in\n{message}");
-    assert!(!message.contains("panicked"), "{message}");
+    project(&format!("{RECORDS}/{name}"))
 }
 
 #[test]
 fn a_record_is_told_with_its_measures() {
-    let here = tempfile::tempdir().expect("a folder");
-    let text = succeeds(here.path(), &["record", &fixture("peer/RSN9001_HOLLOW_MIL090.AT2")]);
+    let folder = Folder::new();
+    let text = folder.succeeds(&["record", &fixture("peer/RSN9001_HOLLOW_MIL090.AT2")]);
     for (name, value) in [
         ("format", "PEER AT2"),
         ("event", "Hollow Creek-01, 3/4/2001"),
@@ -51,9 +40,8 @@ fn a_record_is_told_with_its_measures() {
 /// A triangle of height p and half-base h: PGV = p h, PGD = p h², Arias π/(2g) 2 p² h/3.
 #[test]
 fn the_measures_of_a_triangle_are_its_closed_forms() {
-    let here = tempfile::tempdir().expect("a folder");
-    std::fs::write(here.path().join("triangle.csv"), "t [s], a [m/s2]\n0,0\n0.5,3\n1,0\n").expect("written");
-    let told = json(here.path(), &["record", "triangle.csv"]);
+    let folder = Folder::with("triangle.csv", "t [s], a [m/s2]\n0,0\n0.5,3\n1,0\n");
+    let told = folder.answers("record triangle.csv --json");
     let number = |key: &str| told[key].as_f64().unwrap_or_else(|| panic!("{key} in {told}"));
     let close = |key: &str, value: f64| assert!((number(key) - value).abs() < 1e-12, "{key} = {}", number(key));
     close("pga", 3.0);
@@ -65,93 +53,93 @@ fn the_measures_of_a_triangle_are_its_closed_forms() {
     close("significant_duration", 1.0 - 0.1_f64.cbrt());
     close("duration", 1.0);
     assert_eq!((&told["drifts"], &told["format"], &told["unit"]), (&true.into(), &"table".into(), &"m/s2".into()));
-    assert!(succeeds(here.path(), &["record", "triangle.csv"]).contains("drifts"));
+    assert!(folder.succeeds("record triangle.csv").contains("drifts"));
 }
 
 #[test]
 fn a_record_is_trimmed_scaled_and_written_and_reads_back() {
-    let here = tempfile::tempdir().expect("a folder");
+    let folder = Folder::new();
     let file = fixture("csmip/three-channels.V2");
-    let told =
-        json(here.path(), &["record", &file, "--channel", "3", "--trim", "0.1..0.3", "--pga", "0.5", "--out", "x.csv"]);
+    let cut = ["record", &file, "--channel", "3", "--trim", "0.1..0.3", "--pga", "0.5", "--out", "x.csv", "--json"];
+    let told = folder.answers(&cut);
     assert_eq!(told["samples"], 21);
     assert!((told["pga_g"].as_f64().expect("a number") - 0.5).abs() < 1e-12);
-    let back = json(here.path(), &["record", "x.csv"]);
+    let back = folder.answers("record x.csv --json");
     for key in ["samples", "dt", "pga", "pgv", "pgd", "arias", "significant_start"] {
         assert_eq!(back[key], told[key], "{key}");
     }
     for trim in [&["--trim", "0.1", "0.3"][..], &["--trim=0.1:0.3"], &["--trim", "0.1,0.3"]] {
-        let other = json(here.path(), &[&["record", &file, "--channel", "3"], trim].concat());
+        let other = folder.answers(&[&["record", &file, "--channel", "3", "--json"], trim].concat()[..]);
         assert_eq!(other["samples"], 21, "{trim:?}");
     }
-    assert_eq!(json(here.path(), &["record", "--trim", "0.1..", "x.csv"])["samples"], 11);
-    assert_eq!(json(here.path(), &["record", "x.csv", "--trim", "..0.05"])["samples"], 6);
-    let twice = json(here.path(), &["record", "x.csv", "--scale", "-2"]);
+    assert_eq!(folder.answers("record --trim 0.1.. x.csv --json")["samples"], 11);
+    assert_eq!(folder.answers("record x.csv --trim ..0.05 --json")["samples"], 6);
+    let twice = folder.answers("record x.csv --scale -2 --json");
     assert!((twice["pga_g"].as_f64().expect("a number") - 1.0).abs() < 1e-12);
     // The written file is the only one there.
-    assert_eq!(std::fs::read_dir(here.path()).expect("a folder").count(), 1);
+    assert_eq!(folder.names(""), ["x.csv"]);
 }
 
 #[test]
 fn what_the_file_lacks_is_asked_for_by_its_option() {
-    let here = tempfile::tempdir().expect("a folder");
+    let folder = Folder::new();
     let one = fixture("table/one-column.txt");
     // Its first line states the unit; without that line nothing does.
-    let text = std::fs::read_to_string(&one).expect("it ships");
+    let text = project_text(&format!("{RECORDS}/table/one-column.txt"));
     let (_, samples) = text.split_once('\n').expect("lines");
-    std::fs::write(here.path().join("silent.txt"), samples).expect("written");
-    refused(here.path(), &["record", "silent.txt"], &["silent.txt", "unit", "`--units`"]);
-    refused(here.path(), &["record", &one], &["sampling interval", "`--dt`"]);
-    refused(here.path(), &["record", &one, "--units", "gal"], &["sampling interval", "`--dt`"]);
-    assert_eq!(json(here.path(), &["record", &one, "--units", "gal", "--dt", "0.01"])["samples"], 42);
+    folder.write("silent.txt", samples);
+    folder.refused("record silent.txt", &["silent.txt", "unit", "`--units`"]);
+    folder.refused(&["record", &one], &["sampling interval", "`--dt`"]);
+    folder.refused(&["record", &one, "--units", "gal"], &["sampling interval", "`--dt`"]);
+    assert_eq!(folder.answers(&["record", &one, "--units", "gal", "--dt", "0.01", "--json"])["samples"], 42);
     let titled = fixture("table/skip-rows.txt");
-    refused(here.path(), &["record", &titled], &["line 1, column 1", "`Invented`", "`--skip-rows`"]);
-    assert_eq!(json(here.path(), &["record", &titled, "--skip-rows", "2", "--units", "cm/s2"])["samples"], 42);
+    folder.refused(&["record", &titled], &["line 1, column 1", "`Invented`", "`--skip-rows`"]);
+    assert_eq!(folder.answers(&["record", &titled, "--skip-rows", "2", "--units", "cm/s2", "--json"])["samples"], 42);
     let several = fixture("table/three-columns.csv");
-    refused(here.path(), &["record", &several], &["h1, up", "`--column`"]);
-    assert_eq!(json(here.path(), &["record", &several, "--column", "up"])["component"], "up");
+    folder.refused(&["record", &several], &["h1, up", "`--column`"]);
+    assert_eq!(folder.answers(&["record", &several, "--column", "up", "--json"])["component"], "up");
     let at2 = fixture("peer/RSN9001_HOLLOW_MIL090.AT2");
-    refused(here.path(), &["record", &at2, "--dt", "0.02"], &["`--dt` is given as 0.02 s", "line 4"]);
+    folder.refused(&["record", &at2, "--dt", "0.02"], &["`--dt` is given as 0.02 s", "line 4"]);
 }
 
 #[test]
 fn bad_input_is_refused_with_its_place() {
-    let here = tempfile::tempdir().expect("a folder");
-    let at2 = std::fs::read_to_string(fixture("peer/RSN9001_HOLLOW_MIL090.AT2")).expect("it ships");
-    std::fs::write(here.path().join("short.AT2"), at2.replace("NPTS=    42", "NPTS=    50")).expect("written");
-    std::fs::write(here.path().join("nan.AT2"), at2.replace("   .3384353E-02", "            NaN")).expect("written");
-    std::fs::write(here.path().join("binary"), [0_u8, 159, 146, 150, 255]).expect("written");
-    std::fs::write(here.path().join("empty"), "").expect("written");
-    refused(here.path(), &["record", "short.AT2"], &["short.AT2", "line 4", "declares 50", "has 42", "`--lenient`"]);
-    assert_eq!(json(here.path(), &["record", "short.AT2", "--lenient"])["samples"], 42);
-    refused(here.path(), &["record", "nan.AT2"], &["nan.AT2", "line 5, column 13", "`NaN`", "mend or remove"]);
-    refused(here.path(), &["record", "binary"], &["binary", "no text", "save it as text"]);
-    refused(here.path(), &["record", "empty"], &["empty", "the file is empty"]);
-    refused(here.path(), &["record", "none.AT2"], &["none.AT2", "check the path"]);
-    refused(here.path(), &["record"], &["<FILE>"]);
-    refused(here.path(), &["record", "--trim", "1..2"], &["no record file is named"]);
+    let folder = Folder::new();
+    let at2 = project_text(&format!("{RECORDS}/peer/RSN9001_HOLLOW_MIL090.AT2"));
+    folder.write("short.AT2", at2.replace("NPTS=    42", "NPTS=    50"));
+    folder.write("nan.AT2", at2.replace("   .3384353E-02", "            NaN"));
+    folder.write("binary", [0_u8, 159, 146, 150, 255]);
+    folder.write("empty", "");
+    folder.refused("record short.AT2", &["short.AT2", "line 4", "declares 50", "has 42", "`--lenient`"]);
+    assert_eq!(folder.answers("record short.AT2 --lenient --json")["samples"], 42);
+    folder.refused("record nan.AT2", &["nan.AT2", "line 5, column 13", "`NaN`", "mend or remove"]);
+    folder.refused("record binary", &["binary", "no text", "save it as text"]);
+    folder.refused("record empty", &["empty", "the file is empty"]);
+    folder.refused("record none.AT2", &["none.AT2", "check the path"]);
+    folder.refused("record", &["<FILE>"]);
+    folder.refused("record --trim 1..2", &["no record file is named"]);
     let at2 = fixture("peer/RSN9001_HOLLOW_MIL090.AT2");
     for trim in ["2..1", "x..2", "1", "30..40", "nan..1"] {
-        refused(here.path(), &["record", &at2, "--trim", trim], &["--trim", trim, "2..8"]);
+        folder.refused(&["record", &at2, "--trim", trim], &["--trim", trim, "2..8"]);
     }
     for pga in ["0", "-1", "nan", "inf", "x"] {
-        refused(here.path(), &["record", &at2, &format!("--pga={pga}")], &["--pga", "give a "]);
+        folder.refused(&["record", &at2, &format!("--pga={pga}")], &["--pga", "give a "]);
     }
-    refused(here.path(), &["record", &at2, "--pga", "1", "--scale", "2"], &["cannot be used with"]);
-    refused(here.path(), &["record", &at2, "--units", "knots"], &["knots", "choose g, mg, m/s2"]);
-    refused(here.path(), &["record", &at2, "--out", "no/folder/x.csv"], &["x.csv", "choose a file"]);
-    refused(here.path(), &["record", &at2, "--channel", "2"], &["channel 2"]);
+    folder.refused(&["record", &at2, "--pga", "1", "--scale", "2"], &["cannot be used with"]);
+    folder.refused(&["record", &at2, "--units", "knots"], &["knots", "choose g, mg, m/s2"]);
+    folder.refused(&["record", &at2, "--out", "no/folder/x.csv"], &["x.csv", "choose a file"]);
+    folder.refused(&["record", &at2, "--channel", "2"], &["channel 2"]);
 }
 
 #[test]
 fn a_folder_is_listed_by_record_and_direction() {
-    let here = tempfile::tempdir().expect("a folder");
+    let folder = Folder::new();
     for name in ["RSN9001_HOLLOW_MIL090.AT2", "RSN9001_HOLLOW_MIL000.AT2", "RSN9001_HOLLOW_MIL-UP.AT2", "velocity.VT2"]
     {
-        std::fs::copy(fixture(&format!("peer/{name}")), here.path().join(name)).expect("copied");
+        folder.copy(&format!("{RECORDS}/peer/{name}"), name);
     }
-    std::fs::copy(fixture("knet/XXX0010103040506.EW"), here.path().join("XXX0010103040506.EW")).expect("copied");
-    let told = json(here.path(), &["record", "."]);
+    folder.copy(&format!("{RECORDS}/knet/XXX0010103040506.EW"), "XXX0010103040506.EW");
+    let told = folder.answers("record . --json");
     let groups = told["groups"].as_array().expect("a list");
     let names: Vec<&str> = groups.iter().filter_map(|group| group["record"].as_str()).collect();
     assert_eq!(names, ["RSN9001", "XXX0010103040506"]);
@@ -167,14 +155,13 @@ fn a_folder_is_listed_by_record_and_direction() {
         ]
     );
     assert_eq!(told["unread"][0]["file"], "velocity.VT2");
-    let text = succeeds(here.path(), &["record", "."]);
+    let text = folder.succeeds("record .");
     assert!(text.contains("vertical    RSN9001_HOLLOW_MIL-UP.AT2  PGA 0.2440 g  dt 0.01 s  n 42"), "{text}");
     assert!(text.contains("not read\n  velocity.VT2: line 3: this is no acceleration"), "{text}");
-    refused(here.path(), &["record", ".", "--out", "x.csv"], &["--out is for a single record"]);
+    folder.refused("record . --out x.csv", &["--out is for a single record"]);
 
-    let none = tempfile::tempdir().expect("a folder");
-    std::fs::write(none.path().join("notes.txt"), "nothing of a record\n").expect("written");
-    refused(none.path(), &["record", "."], &["none of its 1 file(s)", "notes.txt"]);
+    let none = Folder::with("notes.txt", "nothing of a record\n");
+    none.refused("record .", &["none of its 1 file(s)", "notes.txt"]);
 }
 
 /// A scene that shakes with this record.
@@ -187,14 +174,11 @@ fn scene(keys: &str) -> String {
 
 #[test]
 fn scenes_take_the_same_files_and_tell_their_warnings_and_origin() {
-    let here = tempfile::tempdir().expect("a folder");
+    let folder = Folder::new();
     let run = |keys: &str| -> (Value, String) {
-        std::fs::write(here.path().join("scene.toml"), scene(keys)).expect("written");
-        let output = rocking(here.path(), &["run", "scene.toml", "--out", "out"]);
-        let message = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(output.status.success(), "{keys}: {message}");
-        let summary = std::fs::read_to_string(here.path().join("out/summary.json")).expect("written");
-        (serde_json::from_str(&summary).expect("JSON"), message)
+        folder.write("scene.toml", scene(keys));
+        let (_, message) = folder.says("run scene.toml --out out");
+        (folder.summary(), message)
     };
     let file = fixture("csmip/three-channels.V2");
     let (summary, message) = run(&format!("file = '{file}'\nscale = 2.0"));
@@ -218,8 +202,8 @@ fn scenes_take_the_same_files_and_tell_their_warnings_and_origin() {
     let titled = fixture("table/skip-rows.txt");
     run(&format!("file = '{titled}'\nskip_rows = 2\nunits = \"cm/s2\""));
 
-    let at2 = std::fs::read_to_string(fixture("peer/RSN9001_HOLLOW_MIL090.AT2")).expect("it ships");
-    std::fs::write(here.path().join("short.AT2"), at2.replace("NPTS=    42", "NPTS=    50")).expect("written");
+    let at2 = project_text(&format!("{RECORDS}/peer/RSN9001_HOLLOW_MIL090.AT2"));
+    folder.write("short.AT2", at2.replace("NPTS=    42", "NPTS=    50"));
     let (summary, _) = run("file = \"short.AT2\"\nlenient = true");
     assert!(summary["warnings"][0].as_str().is_some_and(|warning| warning.contains("declares 50")), "{summary}");
     for (keys, parts) in [
@@ -230,25 +214,94 @@ fn scenes_take_the_same_files_and_tell_their_warnings_and_origin() {
         ("accel = [0.0, 1.0]\ndt = 0.1\nlenient = true", ["line 8", "give `file` instead"]),
         ("file = \"short.AT2\"\nlenient = true\ndt = 0.02", ["line 6", "`dt` is given as 0.02 s"]),
     ] {
-        std::fs::write(here.path().join("scene.toml"), scene(keys)).expect("written");
-        refused(here.path(), &["run", "scene.toml", "--out", "out"], &parts);
+        folder.write("scene.toml", scene(keys));
+        folder.refused("run scene.toml --out out", &parts);
     }
 }
 
 /// `--damping` is that of `--sa` and of `--scale-to`, and nothing without them. Columns are of tables.
 #[test]
 fn options_that_have_no_effect_are_refused() {
-    let here = tempfile::tempdir().expect("a folder");
+    let folder = Folder::new();
     let at2 = fixture("peer/RSN9001_HOLLOW_MIL090.AT2");
     let peak = |arguments: &[&str]| {
-        let arguments = [&["record", at2.as_str(), "--scale-to", "sa(0.2)=3"], arguments].concat();
-        json(here.path(), &arguments)["pga"].as_f64().expect("a number")
+        let arguments = [&["record", at2.as_str(), "--scale-to", "sa(0.2)=3", "--json"], arguments].concat();
+        folder.answers(&arguments[..])["pga"].as_f64().expect("a number")
     };
     let [usual, damped, named] = [&[][..], &["--damping", "0.2"], &["--sa", "0.2"]].map(peak);
     assert!(usual == named && damped > 1.02 * usual, "{usual} {damped}");
-    refused(here.path(), &["record", &at2, "--damping", "0.2"], &["--sa"]);
+    folder.refused(&["record", &at2, "--damping", "0.2"], &["--sa"]);
     for (option, value) in [("--column", "2"), ("--skip-rows", "1")] {
         let key = option.trim_start_matches("--").replace('-', "_");
-        refused(here.path(), &["record", &at2, option, value], &["text tables", "PEER AT2", &key[..4]]);
+        folder.refused(&["record", &at2, option, value], &["text tables", "PEER AT2", &key[..4]]);
+    }
+}
+
+#[test]
+fn inputs_of_init_and_record_are_not_written_over() {
+    let folder = Folder::with("scene.toml", SCENE);
+    let samples = "time,acceleration (m/s2)\n0.0,0.0\n0.1,1.0\n0.2,-1.0\n0.3,0.0\n";
+    folder.write("a.csv", samples);
+    folder.refused("init a.csv --force --record a.csv", &["a.csv"]);
+    folder.refused("record a.csv --scene scene.toml --out scene.toml", &["scene.toml"]);
+    assert_eq!(folder.read("a.csv"), samples);
+    assert_eq!(folder.read("scene.toml"), SCENE);
+}
+
+/// The file has the word, not the option.
+#[test]
+fn words_of_a_record_are_quoted_as_they_are() {
+    let folder = Folder::with("a.txt", "units g dt 0.01\n0.1 0.2 0.3 0.4 0.5\n0.1 0.2 0.3 0.4 0.5\n");
+    folder.refused("record a.txt", &["`units` is no number", "`--skip-rows`"]);
+    folder.write("b.txt", "0.1\n0.2\n0.3\n");
+    folder.refused("record b.txt", &["`--units`"]);
+}
+
+/// Scenes take records at any size, and `rocking record` measures what it scales to.
+#[test]
+fn records_are_scaled_to_any_measure() {
+    let folder = ida::folder();
+    for (size, told) in [
+        ("pgv=0.5", "PGV                   0.5 m/s"),
+        ("pga_g=0.2", "PGA                   0.2 g"),
+        ("arias=1.5", "Arias intensity       1.5 m/s"),
+        ("cav=3", "CAV                   3 m/s"),
+        ("sa_g(0.7)=0.4", "Sa(0.7 s, 5 %)        0.4 g"),
+        ("pgv_uplift=2", "p PGV/(g tan α)       2\n"),
+        ("pga_uplift=1.25", "PGA/(g tan α)         1.25\n"),
+    ] {
+        let command = format!("record records/A_H1.csv --scale-to {size} --sa 0.7 --scene block.toml");
+        let text = folder.succeeds(&command);
+        assert!(text.contains(told), "{size}: {text}");
+        // The same size in a scene.
+        let (key, value) = size.split_once('=').expect("both");
+        let key = key.split('(').next().expect("a name");
+        let period = if key.starts_with("sa") { "sa_period = 0.7\n" } else { "" };
+        let scene = format!(
+            "[column]\nblocks = 1\nhalf_width = 0.2\nhalf_height = 0.8\n[excitation.horizontal]\nkind = \"record\"\nfile = \"records/A_H1.csv\"\n{key} = {value}\n{period}"
+        );
+        folder.write("scene.toml", scene);
+        let scene = Scene::from_file(&folder.path("scene.toml")).expect("valid");
+        let Some(Motion::Record(record)) = scene.excitation.horizontal else { panic!("a record") };
+        let factor = folder.answers(&format!("{command} --json"))["scale"].as_f64().expect("a number");
+        assert!((record.scale() / factor - 1.0).abs() < 1e-12, "{size}: {} and {factor}", record.scale());
+    }
+    for (keys, word) in [
+        ("pgv = 0.5\npga_g = 0.2", "remove one of the two"),
+        ("pgv = 0.5\nscale = 2", "remove one of the two"),
+        ("pgv = -1", "above zero"),
+        ("sa = 1", "sa_period"),
+        ("pgv = 1\nsa_period = 1", "nothing is scaled to"),
+    ] {
+        let scene = format!(
+            "[column]\nblocks = 1\nhalf_width = 0.2\nhalf_height = 0.8\n[excitation.horizontal]\nkind = \"synthetic\"\n{keys}\n"
+        );
+        let scene = if keys.contains("scale") {
+            scene.replace("synthetic\"", "record\"\nfile = \"records/A_H1.csv\"")
+        } else {
+            scene
+        };
+        folder.write("scene.toml", scene);
+        folder.refused("check scene.toml", &[word]);
     }
 }

@@ -1,53 +1,26 @@
 //! Rocking spectra: sweeps with `ask = "peaks"` over the size of the column, and their figures; figures of one axis and of paired axes.
 
-mod common;
-
-use common::{rocking, succeeds};
+use crate::common::{Folder, figures};
 use rocking::ground::Synthetic;
 use rocking::studies::fractile;
 use rocking::{Block, Column, Excitation, Motion, Restitution, Scene, Sweep, simulate};
-use roxmltree::Document;
 use std::collections::HashMap;
 use std::f64::consts::TAU;
-use std::path::Path;
 
 const COLUMN: &str = "[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.6\n[restitution]\neta = 0.9\n";
 
 const NOISE: &str = "[excitation.horizontal]\nkind = \"synthetic\"\nduration = 8\npga_g = 0.35\nfrequency = 1.5\n";
 
 /// A folder with a base scene and a sweep.
-fn folder(scene: &str, sweep: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().expect("a folder");
-    std::fs::write(folder.path().join("base.toml"), scene).expect("written");
-    std::fs::write(folder.path().join("sweep.toml"), format!("scene = \"base.toml\"\n{sweep}")).expect("written");
+fn folder(scene: &str, sweep: &str) -> Folder {
+    let folder = Folder::with("base.toml", scene);
+    folder.write("sweep.toml", format!("scene = \"base.toml\"\n{sweep}"));
     folder
 }
 
-/// The rows of a table by the names of their columns.
-fn rows(folder: &Path, name: &str) -> Vec<HashMap<String, String>> {
-    let text = std::fs::read_to_string(folder.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
-    let mut lines = text.lines();
-    let header: Vec<String> = lines.next().expect("a header").split(',').map(String::from).collect();
-    lines.map(|line| header.iter().cloned().zip(line.split(',').map(String::from)).collect()).collect()
-}
-
-fn number(row: &HashMap<String, String>, name: &str) -> f64 {
-    row.get(name).and_then(|cell| cell.parse().ok()).unwrap_or_else(|| panic!("{name} of {row:?}"))
-}
-
 /// The texts of a figure.
-fn words(folder: &Path, name: &str) -> Vec<String> {
-    let figure = std::fs::read_to_string(folder.join(name)).expect("written");
-    let document = Document::parse(&figure).expect("XML");
-    let texts = document.descendants().filter(|node| node.has_tag_name("text")).filter_map(|node| node.text());
-    texts.map(String::from).collect()
-}
-
-/// Refused before anything runs, with these words.
-fn refused(folder: &Path, arguments: &[&str], said: &str) {
-    let output = rocking(folder, arguments);
-    let message = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(output.status.code() == Some(2) && message.contains(said), "{message}");
+fn words(folder: &Folder, name: &str) -> Vec<String> {
+    figures::words(&folder.read(name))
 }
 
 /// Slenderness, rocking period, record: columns made by hand of both, records by hand of their seeds.
@@ -56,16 +29,15 @@ fn the_values_of_a_spectrum_are_those_of_single_runs() {
     let axes = "ask = \"peaks\"\n[axes]\nalpha = [0.15, 0.25]\nseed = { from = 1, to = 4 }\n\
         rocking_period = { from = 1.5, to = 4.5, steps = 4 }\n";
     let folder = folder(&format!("{COLUMN}{NOISE}[solver]\nt_end = 14.0\n"), axes);
-    let path = folder.path();
-    let told = succeeds(path, &["sweep", "sweep.toml", "--plot", "f.svg"]);
+    let told = folder.succeeds("sweep sweep.toml --plot f.svg");
     assert!(told.contains("wrote f.svg: Rocking spectrum: the largest |θ|/α over 2π/p [s], 4 records"), "{told}");
-    let table = rows(path, "sweep.csv");
+    let table = folder.table("sweep.csv");
     assert_eq!(table.len(), 32);
     let mut by_point: HashMap<String, Vec<f64>> = HashMap::new();
     let mut compared = 0;
-    for row in &table {
-        let (alpha, period) = (number(row, "size.alpha"), number(row, "size.rocking_period"));
-        let seed = number(row, "excitation.horizontal.seed") as u64;
+    for row in table.rows() {
+        let (alpha, period) = (row.number("size.alpha"), row.number("size.rocking_period"));
+        let seed = row.number("excitation.horizontal.seed") as u64;
         // p² = 3 g / (4 R) of a rectangular block.
         let radius = 0.75 * 9.81 * (period / TAU).powi(2);
         let block = Block::rectangle(radius * alpha.sin(), radius * alpha.cos(), 1.0);
@@ -76,53 +48,52 @@ fn the_values_of_a_spectrum_are_those_of_single_runs() {
         let record = Motion::Record(record.record().expect("valid"));
         scene.excitation = Excitation { horizontal: Some(record), vertical: None };
         let response = simulate(&scene).expect("runs");
-        assert_eq!(row["outcome"] == "overturns", response.status.overturns(), "{row:?}");
+        assert_eq!(row.text("outcome") == "overturns", response.status.overturns(), "{row:?}");
         let lost = response.status.overturns();
         if !lost {
             let expected = response.peak_theta[0] / alpha;
-            assert!((number(row, "peak_1") - expected).abs() <= 1e-6 * expected, "{row:?} {expected}");
+            assert!((row.number("peak_1") - expected).abs() <= 1e-6 * expected, "{row:?} {expected}");
             compared += usize::from(expected > 0.0);
         }
-        let demand = if lost { f64::INFINITY } else { number(row, "peak_1") };
+        let demand = if lost { f64::INFINITY } else { row.number("peak_1") };
         by_point.entry(format!("{alpha} {period}")).or_default().push(demand);
     }
     assert!(compared > 8, "{compared} runs rock and stand");
 
-    let fractiles = rows(path, "sweep-fractiles.csv");
+    let fractiles = folder.table("sweep-fractiles.csv");
     assert_eq!(fractiles.len(), 8);
-    for row in &fractiles {
-        let (alpha, period) = (number(row, "size.alpha"), number(row, "size.rocking_period"));
+    for row in fractiles.rows() {
+        let (alpha, period) = (row.number("size.alpha"), row.number("size.rocking_period"));
         let demands = &by_point[&format!("{alpha} {period}")];
         let lost = demands.iter().filter(|demand| demand.is_infinite()).count();
-        assert_eq!((number(row, "runs"), number(row, "lost"), number(row, "undecided")), (4.0, lost as f64, 0.0));
+        assert_eq!((row.number("runs"), row.number("lost"), row.number("undecided")), (4.0, lost as f64, 0.0));
         for share in [16, 50, 84] {
-            assert_eq!(number(row, &format!("peak_{share}")), fractile(demands, f64::from(share) / 100.0), "{row:?}");
+            assert_eq!(row.number(&format!("peak_{share}")), fractile(demands, f64::from(share) / 100.0), "{row:?}");
         }
     }
-    let found = words(path, "f.svg");
+    let found = words(&folder, "f.svg");
     for word in ["α = 0.15 rad", "α = 0.25 rad", "2π/p [s]", "Largest |θ|/α", "4 records", "16 %", "50 %", "84 %"]
     {
         assert!(found.iter().any(|own| own == word), "{word} is not in {found:?}");
     }
 
     // The same by the library, and of the table that is there.
-    let sweep = Sweep::from_file(&path.join("sweep.toml")).expect("valid");
+    let sweep = Sweep::from_file(&folder.path("sweep.toml")).expect("valid");
     for row in sweep.rows(0..sweep.len()) {
         let demand = row.result.expect("runs").demand().expect("an answer");
-        let own = &table[row.index];
-        assert!(if own["outcome"] == "overturns" { demand.is_infinite() } else { demand == number(own, "peak_1") });
+        let own = table.row(row.index);
+        assert!(if own.text("outcome") == "overturns" { demand.is_infinite() } else { demand == own.number("peak_1") });
     }
-    succeeds(path, &["plot", "sweep.csv"]);
-    let [first, later] = ["f.svg", "sweep.svg"].map(|name| std::fs::read(path.join(name)).expect("written"));
+    folder.succeeds("plot sweep.csv");
+    let [first, later] = ["f.svg", "sweep.svg"].map(|name| folder.bytes(name));
     assert!(first == later);
     // Shards have no fractiles, the table that is merged of them has.
     for shard in ["1/2", "2/2"] {
-        succeeds(path, &["sweep", "sweep.toml", "--shard", shard]);
+        folder.succeeds(&format!("sweep sweep.toml --shard {shard}"));
     }
-    assert!(!path.join("sweep-1-of-2-fractiles.csv").exists());
-    succeeds(path, &["merge", "m.csv", "sweep-1-of-2.csv", "sweep-2-of-2.csv", "--sweep", "sweep.toml"]);
-    let [whole, merged] =
-        ["sweep", "m"].map(|name| std::fs::read(path.join(format!("{name}-fractiles.csv"))).expect("written"));
+    assert!(!folder.has("sweep-1-of-2-fractiles.csv"));
+    folder.succeeds("merge m.csv sweep-1-of-2.csv sweep-2-of-2.csv --sweep sweep.toml");
+    let [whole, merged] = ["sweep", "m"].map(|name| folder.bytes(&format!("{name}-fractiles.csv")));
     assert!(whole == merged);
 }
 
@@ -137,31 +108,32 @@ fn validation_the_spectrum_of_a_rectangular_pulse_is_the_closed_form_of_the_slen
     let axes =
         format!("ask = \"peaks\"\n[axes]\nalpha = [{alpha}]\nrocking_period = {{ from = 0.5, to = 6, steps = 56 }}\n");
     let folder = folder(&format!("{COLUMN}{pulse}[solver]\nt_end = 10.0\n"), &axes);
-    succeeds(folder.path(), &["sweep", "sweep.toml", "--plot", "f.png"]);
+    folder.succeeds("sweep sweep.toml --plot f.png");
     let (mut lost, mut rocking) = (0, 0);
-    for row in rows(folder.path(), "sweep.csv") {
-        let p = TAU / number(&row, "size.rocking_period");
+    for row in folder.table("sweep.csv").rows() {
+        let p = TAU / row.number("size.rocking_period");
         let (angle, rate) = ((lambda - 1.0) * ((p * duration).cosh() - 1.0), (lambda - 1.0) * (p * duration).sinh());
         let square = (1.0 - angle).powi(2) - rate.powi(2);
         if angle >= 1.0 || square < 0.0 {
-            assert_eq!(row["outcome"], "overturns", "{row:?}");
+            assert_eq!(row.text("outcome"), "overturns", "{row:?}");
             lost += 1;
         } else {
             let expected = 1.0 - square.sqrt();
             // The nonlinear block differs by terms of α².
-            assert!((number(&row, "peak_1") / expected - 1.0).abs() < 1e-4, "{row:?} {expected}");
+            assert!((row.number("peak_1") / expected - 1.0).abs() < 1e-4, "{row:?} {expected}");
             rocking += 1;
         }
     }
     assert!(lost > 3 && rocking > 30, "{lost} {rocking}");
-    assert!(std::fs::read(folder.path().join("f.png")).expect("written").starts_with(b"\x89PNG"));
+    assert!(folder.bytes("f.png").starts_with(b"\x89PNG"));
     // Below uplift nothing moves, whatever its size.
-    let text = std::fs::read_to_string(folder.path().join("base.toml")).expect("written");
-    std::fs::write(folder.path().join("base.toml"), text.replace("amplitude_uplift = 1.4", "amplitude_uplift = 0.99"))
-        .expect("written");
-    succeeds(folder.path(), &["sweep", "sweep.toml", "--plot", "f.svg"]);
-    let still = rows(folder.path(), "sweep.csv");
-    assert!(still.len() == 56 && still.iter().all(|row| row["outcome"] == "no-uplift" && number(row, "peak_1") == 0.0));
+    let text = folder.read("base.toml");
+    folder.write("base.toml", text.replace("amplitude_uplift = 1.4", "amplitude_uplift = 0.99"));
+    folder.succeeds("sweep sweep.toml --plot f.svg");
+    let still = folder.table("sweep.csv");
+    assert!(
+        still.len() == 56 && still.rows().all(|row| row.text("outcome") == "no-uplift" && row.number("peak_1") == 0.0)
+    );
 }
 
 /// A figure over `p` has its period to the right.
@@ -171,9 +143,9 @@ fn an_axis_over_p_is_drawn_as_its_period() {
     let drawn = |axis: &str| {
         let axes = format!("ask = \"peaks\"\n[axes]\nalpha = [0.2, 0.3, 0.4]\n{axis}\n");
         let folder = folder(&format!("{COLUMN}{pulse}"), &axes);
-        succeeds(folder.path(), &["sweep", "sweep.toml", "--plot", "f.svg"]);
-        assert!(!folder.path().join("sweep-fractiles.csv").exists(), "no records");
-        (words(folder.path(), "f.svg"), std::fs::read_to_string(folder.path().join("f.svg")).expect("written"))
+        folder.succeeds("sweep sweep.toml --plot f.svg");
+        assert!(!folder.has("sweep-fractiles.csv"), "no records");
+        (words(&folder, "f.svg"), folder.read("f.svg"))
     };
     // The same points, from the other end.
     let periods: Vec<f64> = (2..=8).map(f64::from).collect();
@@ -193,38 +165,38 @@ fn one_axis_is_drawn_as_strips_or_as_a_curve_for_each_block() {
     let scene = format!("{COLUMN}{pulse}[solver]\nt_end = 12.0\nrtol = 1e-6\n");
     let amplitudes = "amplitude_uplift = { from = 0.5, to = 10, steps = 20 }\n";
     let one = folder(&scene, &format!("[axes]\n{amplitudes}"));
-    let told = succeeds(one.path(), &["sweep", "sweep.toml", "--plot", "f.svg"]);
+    let told = one.succeeds("sweep sweep.toml --plot f.svg");
     assert!(
         told.contains(
             "wrote f.svg: What becomes of the column over a / (g tan α). Share of the points that are lost: "
         ),
         "{told}"
     );
-    assert!(!one.path().join("f-minimum.svg").exists());
-    let table = rows(one.path(), "sweep.csv");
-    let standing = table.iter().filter(|row| row["outcome"] == "rocks").count();
+    assert!(!one.has("f-minimum.svg"));
+    let table = one.table("sweep.csv");
+    let standing = table.rows().filter(|row| row.text("outcome") == "rocks").count();
     let share = format!("rocks and stands, {:.0} %", 5.0 * standing as f64);
-    let found = words(one.path(), "f.svg");
+    let found = words(&one, "f.svg");
     assert!(found.contains(&share) && found.contains(&"a / (g tan α)".into()), "{share} {found:?}");
 
     // A strip for each name.
     let kinds = folder(&scene, &format!("[axes]\nkind = [\"sine-pulse\", \"ricker\"]\n{amplitudes}"));
-    succeeds(kinds.path(), &["sweep", "sweep.toml", "--plot", "f.svg"]);
-    let found = words(kinds.path(), "f.svg");
+    kinds.succeeds("sweep sweep.toml --plot f.svg");
+    let found = words(&kinds, "f.svg");
     assert!(["sine-pulse", "ricker"].iter().all(|word| found.contains(&(*word).into())), "{found:?}");
 
     let blocks = scene.replace("blocks = 1", "blocks = 3");
     let peaks = folder(&blocks, &format!("ask = \"peaks\"\n[axes]\n{amplitudes}"));
-    let told = succeeds(peaks.path(), &["sweep", "sweep.toml", "--plot", "f.svg"]);
+    let told = peaks.succeeds("sweep sweep.toml --plot f.svg");
     assert!(told.contains("Largest angle: the largest |θ|/α over a / (g tan α)"), "{told}");
-    let found = words(peaks.path(), "f.svg");
+    let found = words(&peaks, "f.svg");
     assert!(["block 1", "block 2", "block 3"].iter().all(|word| found.contains(&(*word).into())), "{found:?}");
     // Too many curves, and no plane.
     let kinds: Vec<String> = (0..13).map(|number| format!("\"t{number}\"")).collect();
     let many = folder(&scene, &format!("ask = \"peaks\"\n[axes]\ntitle = [{}]\n{amplitudes}", kinds.join(", ")));
-    refused(many.path(), &["sweep", "sweep.toml", "--plot", "f.svg"], "make 13 curves, and 12 can be read");
+    many.refused("sweep sweep.toml --plot f.svg", &["make 13 curves, and 12 can be read"]);
     let none = folder(&scene, "[axes]\nkind = [\"sine-pulse\", \"ricker\"]\n");
-    refused(none.path(), &["sweep", "sweep.toml", "--plot", "f.svg"], "no axis with numbers has several values");
+    none.refused("sweep sweep.toml --plot f.svg", &["no axis with numbers has several values"]);
 }
 
 #[test]
@@ -234,17 +206,16 @@ fn paired_axes_are_drawn_along_the_first_that_has_numbers() {
     let axes = "combine = \"paired\"\n[axes]\nkind = [\"sine-pulse\", \"ricker\", \"sine-pulse\", \"ricker\"]\nomega_p = [2, 3, 5, 8]\namplitude_uplift = [1.5, 1.5, 4, 9]\n";
     for (ask, x) in [("", "Ω / p"), ("ask = \"peaks\"\n", "Ω / p")] {
         let folder = folder(&scene, &format!("{ask}{axes}"));
-        succeeds(folder.path(), &["sweep", "sweep.toml", "--plot", "f.svg"]);
-        assert!(words(folder.path(), "f.svg").contains(&x.into()));
-        succeeds(folder.path(), &["plot", "sweep.csv", "--out", "again"]);
-        let [first, later] =
-            ["f.svg", "again/sweep.svg"].map(|name| std::fs::read(folder.path().join(name)).expect("written"));
+        folder.succeeds("sweep sweep.toml --plot f.svg");
+        assert!(words(&folder, "f.svg").contains(&x.into()));
+        folder.succeeds("plot sweep.csv --out again");
+        let [first, later] = ["f.svg", "again/sweep.svg"].map(|name| folder.bytes(name));
         assert!(first == later);
     }
     // Without numbers, by the points.
     let axes = "combine = \"paired\"\nask = \"peaks\"\n[axes]\ntitle = [\"a\", \"b\", \"c\"]\n";
     let folder = folder(&scene, axes);
-    refused(folder.path(), &["sweep", "sweep.toml", "--plot", "f.svg"], "no axis with numbers");
+    folder.refused("sweep sweep.toml --plot f.svg", &["no axis with numbers"]);
 }
 
 /// What stands in the table is what one would write.
@@ -253,10 +224,10 @@ fn values_of_ranges_are_decimal_numbers_in_the_table() {
     let pulse = "[excitation.horizontal]\nkind = \"sine-pulse\"\namplitude_uplift = 0.5\nomega_p = 5\n";
     let axes = "[axes]\n\"solver.rtol\" = { from = 1e-9, to = 1e-5, steps = 5, scale = \"log\" }\namplitude_uplift = { from = 0.1, to = 0.9, steps = 9 }\n";
     let folder = folder(&format!("{COLUMN}{pulse}[solver]\nt_end = 5.0\n"), axes);
-    succeeds(folder.path(), &["sweep", "sweep.toml"]);
-    let table = rows(folder.path(), "sweep.csv");
-    let of = |name: &str, index: usize| table[index][name].clone();
-    let amplitudes: Vec<String> = (0..9).map(|index| of("excitation.horizontal.amplitude_uplift", index)).collect();
+    folder.succeeds("sweep sweep.toml");
+    let table = folder.table("sweep.csv");
+    let of = |name: &str, index: usize| table.row(index).text(name);
+    let amplitudes: Vec<&str> = (0..9).map(|index| of("excitation.horizontal.amplitude_uplift", index)).collect();
     assert_eq!(amplitudes, ["0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7", "0.8", "0.9"]);
     let tolerances: Vec<f64> = (0..5).map(|index| of("solver.rtol", 9 * index).parse().expect("a number")).collect();
     assert_eq!(tolerances, [1e-9, 1e-8, 1e-7, 1e-6, 1e-5]);
@@ -268,27 +239,26 @@ fn residual_slides_have_a_figure_of_their_own() {
         [excitation.horizontal]\nkind = \"sine-pulse\"\namplitude_g = 0.4\nfrequency = 1.5\n[solver]\nt_end = 4.0\n";
     let axis = "[axes]\namplitude_g = { from = 0.2, to = 0.6, steps = 5 }\n";
     let folder = folder(scene, &format!("ask = \"slides\"\n{axis}"));
-    let told = succeeds(folder.path(), &["sweep", "sweep.toml", "--plot", "f.svg"]);
+    let told = folder.succeeds("sweep sweep.toml --plot f.svg");
     assert!(told.contains("wrote f.svg: Largest angle: the largest |θ|/α over"), "{told}");
     assert!(
         told.contains("wrote f-slides.svg: Residual slide: the size of the slide at the end of a run over"),
         "{told}"
     );
-    let (angles, slides) = (words(folder.path(), "f.svg"), words(folder.path(), "f-slides.svg"));
+    let (angles, slides) = (words(&folder, "f.svg"), words(&folder, "f-slides.svg"));
     assert!(angles.contains(&"block 2".into()) && angles.contains(&"Largest |θ|/α".into()), "{angles:?}");
     assert!(slides.contains(&"interface 2".into()) && slides.contains(&"Residual slide [m]".into()), "{slides:?}");
     // The axis reaches just beyond the largest slide of the table, whatever its sign.
-    let table = rows(folder.path(), "sweep.csv");
-    let sizes = table.iter().flat_map(|row| [1, 2].map(|i| number(row, &format!("residual_slide_{i}")).abs()));
+    let table = folder.table("sweep.csv");
+    let sizes = table.rows().flat_map(|row| [1, 2].map(|i| row.number(&format!("residual_slide_{i}")).abs()));
     let largest = sizes.fold(0.0, f64::max);
     let ticks: Vec<f64> = slides.iter().filter_map(|word| word.parse().ok()).filter(|tick: &f64| *tick < 0.2).collect();
     let top = ticks.iter().copied().fold(0.0, f64::max);
     assert!(largest > 1e-3 && top > 0.6 * largest && top < 1.06 * largest, "{largest} {ticks:?}");
     // The table alone gives the same; without slides there is one figure.
-    let later = succeeds(folder.path(), &["plot", "sweep.csv"]);
+    let later = folder.succeeds("plot sweep.csv");
     assert!(later.contains("sweep-slides.svg"), "{later}");
-    std::fs::write(folder.path().join("peaks.toml"), format!("scene = \"base.toml\"\nask = \"peaks\"\n{axis}"))
-        .expect("written");
-    succeeds(folder.path(), &["sweep", "peaks.toml", "--plot", "p.svg"]);
-    assert!(folder.path().join("p.svg").exists() && !folder.path().join("p-slides.svg").exists());
+    folder.write("peaks.toml", format!("scene = \"base.toml\"\nask = \"peaks\"\n{axis}"));
+    folder.succeeds("sweep peaks.toml --plot p.svg");
+    assert!(folder.has("p.svg") && !folder.has("p-slides.svg"));
 }

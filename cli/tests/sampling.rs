@@ -1,30 +1,16 @@
 //! Sweeps over distributions: failure probabilities against closed forms, samples that do not depend on the others, clear errors.
 
-mod common;
-
-use common::{rocking, succeeds};
-use std::path::{Path, PathBuf};
+use crate::common::{Folder, assert_has, unbroken};
 
 /// A block under a constant acceleration that lasts: it overturns where that exceeds `g tan α = 2.4525 m/s²`, and nothing opens below.
 const SCENE: &str = "[column]\nblocks = 1\nhalf_width = 0.25\nhalf_height = 1.0\n\n[excitation.horizontal]\nkind = \"rectangular\"\n\
                      amplitude = 1.0\nduration = 9.0\n\n[solver]\nt_end = 10.0\n";
 
-fn folder(name: &str, sweep: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).expect("a folder");
-    std::fs::write(folder.join("scene.toml"), SCENE).expect("a file");
-    std::fs::write(folder.join("sweep.toml"), format!("scene = \"scene.toml\"\n{sweep}")).expect("a file");
+/// A folder with a sweep over that block.
+fn folder(sweep: &str) -> Folder {
+    let folder = Folder::with("scene.toml", SCENE);
+    folder.write("sweep.toml", format!("scene = \"scene.toml\"\n{sweep}"));
     folder
-}
-
-fn table(folder: &Path, name: &str) -> Vec<Vec<String>> {
-    let text = std::fs::read_to_string(folder.join(name)).expect("a table");
-    text.lines().map(|line| line.split(',').map(String::from).collect()).collect()
-}
-
-fn number(cell: &str) -> f64 {
-    cell.parse().expect("a number")
 }
 
 /// `P(a > g tan α) = 1 - Φ(ln(g tan α / median) / dispersion)` of a lognormal acceleration.
@@ -39,12 +25,12 @@ fn failure_probabilities_are_those_of_the_distribution() {
             let sweep = format!(
                 "ask = \"overturns\"\n[sampling]\nsamples = 2048\nmethod = \"{method}\"\nseed = 5\n[axes]\namplitude = {{ lognormal = [{median}, 0.4] }}\n"
             );
-            let folder = folder("sampling-probability", &sweep);
-            let told = succeeds(&folder, &["sweep", "sweep.toml", "--out", "table.csv"]);
-            let rows = table(&folder, "table-probability.csv");
-            assert_eq!(rows[0], ["runs", "lost", "undecided", "probability", "low", "high"]);
-            let [runs, lost, undecided, share, low, high] =
-                [0, 1, 2, 3, 4, 5].map(|place: usize| number(&rows[1][place]));
+            let folder = folder(&sweep);
+            let told = folder.succeeds("sweep sweep.toml --out table.csv");
+            let table = folder.table("table-probability.csv");
+            let columns = ["runs", "lost", "undecided", "probability", "low", "high"];
+            assert_eq!(table.columns(), columns);
+            let [runs, lost, undecided, share, low, high] = columns.map(|name| table.row(0).number(name));
             assert_eq!((runs, undecided, share), (2048.0, 0.0, lost / 2048.0));
             assert!((share - exact).abs() < error, "{method}: {share} and {exact}");
             assert!(low < exact && exact < high && high - low < 0.05, "{method}: {low} to {high}");
@@ -61,35 +47,32 @@ fn failure_probabilities_are_those_of_the_distribution() {
 fn samples_are_found_without_the_others() {
     let sweep = "[sampling]\nsamples = 50\nseed = 3\n[axes]\namplitude = { uniform = [2.0, 3.0] }\n\
                  half_width = { normal = [0.25, 0.02], min = 0.2 }\nhalf_height = [0.9, 1.0, 1.1]\n";
-    let folder = folder("sampling-shards", sweep);
-    let told = succeeds(&folder, &["check", "sweep.toml"]);
-    assert!(
-        told.contains("150 point(s)") && told.contains("excitation.horizontal.amplitude: 50 value(s), from 2.0"),
-        "{told}"
-    );
-    succeeds(&folder, &["sweep", "sweep.toml", "--out", "whole.csv"]);
-    let rows = table(&folder, "whole.csv");
-    assert_eq!(rows[0][..4], ["index", "column.half_height", "excitation.horizontal.amplitude", "column.half_width"]);
+    let folder = folder(sweep);
+    let told = folder.succeeds("check sweep.toml");
+    assert_has(&told, &["150 point(s)", "excitation.horizontal.amplitude: 50 value(s), from 2.0"]);
+    folder.succeeds("sweep sweep.toml --out whole.csv");
+    let table = folder.table("whole.csv");
+    let [height, amplitude, width] = ["column.half_height", "excitation.horizontal.amplitude", "column.half_width"];
+    assert_eq!(table.columns()[..4], ["index", height, amplitude, width]);
     // The same samples at each height, each within its bounds and one in each fiftieth.
-    for sample in 0..50 {
-        assert_eq!(rows[1 + sample][2..4], rows[51 + sample][2..4]);
-    }
-    let mut fiftieths: Vec<usize> = rows[1..51].iter().map(|row| ((number(&row[2]) - 2.0) * 50.0) as usize).collect();
+    let (amplitudes, widths) = (table.texts(amplitude), table.texts(width));
+    assert!(amplitudes[..50] == amplitudes[50..100] && widths[..50] == widths[50..100]);
+    let mut fiftieths: Vec<usize> =
+        table.numbers(amplitude)[..50].iter().map(|amplitude| ((amplitude - 2.0) * 50.0) as usize).collect();
     fiftieths.sort_unstable();
     assert!(fiftieths.into_iter().eq(0..50));
-    assert!(rows[1..].iter().all(|row| number(&row[3]) >= 0.2));
-    let probabilities = table(&folder, "whole-probability.csv");
-    assert_eq!(probabilities.len(), 4);
-    assert_eq!(probabilities[1..].iter().map(|row| row[0].as_str()).collect::<Vec<_>>(), ["0.9", "1", "1.1"]);
+    assert!(table.numbers(width).iter().all(|width| *width >= 0.2));
+    let probabilities = folder.table("whole-probability.csv");
+    assert_eq!(probabilities.texts(probabilities.columns()[0]), ["0.9", "1", "1.1"]);
     // Less slender, safer.
-    assert!(number(&probabilities[1][4]) <= number(&probabilities[3][4]), "{probabilities:?}");
-    for shard in ["1/3", "2/3", "3/3"] {
-        succeeds(&folder, &["sweep", "sweep.toml", "--shard", shard, "--out", &format!("part-{}.csv", &shard[..1])]);
+    let shares = probabilities.numbers("probability");
+    assert!(shares[0] <= shares[2], "{probabilities:?}");
+    for shard in 1..=3 {
+        folder.succeeds(&format!("sweep sweep.toml --shard {shard}/3 --out part-{shard}.csv"));
     }
-    let told =
-        succeeds(&folder, &["merge", "merged.csv", "part-3.csv", "part-1.csv", "part-2.csv", "--sweep", "sweep.toml"]);
-    assert_eq!(table(&folder, "merged.csv"), rows);
-    assert_eq!(table(&folder, "merged-probability.csv"), probabilities);
+    let told = folder.succeeds("merge merged.csv part-3.csv part-1.csv part-2.csv --sweep sweep.toml");
+    assert_eq!(folder.table("merged.csv"), table);
+    assert_eq!(folder.table("merged-probability.csv"), probabilities);
     assert!(told.contains("column.half_height = 0.9: lost with probability "), "{told}");
 }
 
@@ -101,15 +84,11 @@ fn axes_are_correlated_as_asked() {
             "[sampling]\nsamples = 4096\nmethod = \"{method}\"\ncorrelations = [{{ axes = [\"half_width\", \"amplitude\"], value = -0.7 }}]\n\
              [axes]\namplitude = {{ lognormal = [1.0, 0.3] }}\nhalf_height = {{ normal = [1.0, 0.01] }}\nhalf_width = {{ normal = [0.25, 0.01] }}\n"
         );
-        let folder = folder("sampling-correlated", &sweep);
-        succeeds(&folder, &["sweep", "sweep.toml", "--out", "table.csv"]);
-        let rows = table(&folder, "table.csv");
-        let column = |name: &str| -> Vec<f64> {
-            let place = rows[0].iter().position(|own| own == name).expect("a column");
-            rows[1..].iter().map(|row| number(&row[place])).collect()
-        };
-        let logarithms: Vec<f64> = column("excitation.horizontal.amplitude").iter().map(|a| a.ln()).collect();
-        let axes = [logarithms, column("column.half_width"), column("column.half_height")];
+        let folder = folder(&sweep);
+        folder.succeeds("sweep sweep.toml --out table.csv");
+        let table = folder.table("table.csv");
+        let logarithms = table.numbers("excitation.horizontal.amplitude").iter().map(|a| a.ln()).collect();
+        let axes: [Vec<f64>; 3] = [logarithms, table.numbers("column.half_width"), table.numbers("column.half_height")];
         let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
         let product = |a: &[f64], b: &[f64]| {
             let (of_a, of_b) = (mean(a), mean(b));
@@ -181,14 +160,9 @@ fn bad_distributions_are_refused_with_place_and_remedy() {
             vec!["minimum", "known here are"],
         ),
     ] {
-        let folder = folder("sampling-refused", &sweep);
-        let refused = rocking(&folder, &["sweep", "sweep.toml", "--out", "table.csv"]);
-        let error = String::from_utf8_lossy(&refused.stderr).into_owned();
-        assert_eq!(refused.status.code(), Some(2), "{sweep}: {error}");
-        let plain: String = error.split_whitespace().collect::<Vec<_>>().join(" ");
-        for words in told {
-            assert!(plain.contains(words), "{sweep}: `{words}` is not in {plain}");
-        }
-        assert!(!folder.join("table.csv").exists());
+        let folder = folder(&sweep);
+        let message = unbroken(&folder.refused("sweep sweep.toml --out table.csv", &[]));
+        assert_has(&message, &told);
+        assert!(!folder.has("table.csv"));
     }
 }

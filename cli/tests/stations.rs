@@ -1,53 +1,48 @@
 //! Records of stations: horizontal and vertical components of one record by its name, in scenes and as an axis of sweeps.
 
-mod common;
-
-use common::{rocking, root, succeeds};
+#[cfg(unix)]
+use crate::common::scenes::SCENE;
+use crate::common::{Folder, assert_has};
 use rocking::{Motion, Scene, Sweep};
-use std::path::Path;
 
 const COLUMN: &str = "[column]\nblocks = 1\nhalf_width = 0.2\nhalf_height = 1.0\n";
 
 /// A folder with two records of three components, and files that are none of theirs.
-fn folder() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().expect("a folder");
-    let records = folder.path().join("records");
-    std::fs::create_dir(&records).expect("made");
-    let peer = root().join("ground/tests/records/peer");
+fn folder() -> Folder {
+    let folder = Folder::new();
+    let copy =
+        |name: &str, own: &str| folder.copy(&format!("ground/tests/records/peer/{name}"), &format!("records/{own}"));
     for ending in ["000", "090", "-UP"] {
         for number in [9001, 9002] {
-            let from = peer.join(format!("RSN9001_HOLLOW_MIL{ending}.AT2"));
-            std::fs::copy(from, records.join(format!("RSN{number}_HOLLOW_MIL{ending}.AT2"))).expect("copied");
+            copy(&format!("RSN9001_HOLLOW_MIL{ending}.AT2"), &format!("RSN{number}_HOLLOW_MIL{ending}.AT2"));
         }
     }
     // PEER gives velocities beside accelerations.
-    std::fs::copy(peer.join("velocity.VT2"), records.join("RSN9001_HOLLOW_MIL000.VT2")).expect("copied");
+    copy("velocity.VT2", "RSN9001_HOLLOW_MIL000.VT2");
     folder
 }
 
-fn scene(folder: &Path, excitation: &str) -> Result<Scene, String> {
-    let file = folder.join("s.toml");
-    Scene::from_toml(&format!("{COLUMN}{excitation}"), &file).map_err(|error| error.to_string())
+fn scene(folder: &Folder, excitation: &str) -> Result<Scene, String> {
+    Scene::from_toml(&format!("{COLUMN}{excitation}"), &folder.path("s.toml")).map_err(|error| error.to_string())
 }
 
 #[test]
 fn a_station_is_its_components_scaled_by_one_factor() {
     let folder = folder();
-    let path = folder.path();
     let record = |key: &str, file: &str, size: &str| {
         format!("[excitation.{key}]\nkind = \"record\"\nfile = \"records/RSN9001_HOLLOW_MIL{file}.AT2\"\n{size}\n")
     };
     for (component, file) in
         [("", "000"), ("component = \"H1\"", "000"), ("component = \"h2\"", "090"), ("component = \"090\"", "090")]
     {
-        let own =
-            scene(path, &format!("[excitation.station]\nrecord = \"records/RSN9001\"\n{component}\n")).expect("valid");
-        assert_eq!(own, scene(path, &record("horizontal", file, "")).expect("valid"), "{component}");
+        let own = scene(&folder, &format!("[excitation.station]\nrecord = \"records/RSN9001\"\n{component}\n"))
+            .expect("valid");
+        assert_eq!(own, scene(&folder, &record("horizontal", file, "")).expect("valid"), "{component}");
         let sized = format!(
             "[excitation.station]\nrecord = \"records/RSN9001\"\n{component}\nvertical = true\npgv = 0.3\nstart = 1\n"
         );
-        let sized = scene(path, &sized).expect("valid");
-        let alone = scene(path, &record("horizontal", file, "pgv = 0.3\nstart = 1")).expect("valid");
+        let sized = scene(&folder, &sized).expect("valid");
+        let alone = scene(&folder, &record("horizontal", file, "pgv = 0.3\nstart = 1")).expect("valid");
         assert_eq!(sized.excitation.horizontal, alone.excitation.horizontal);
         // The vertical component has the factor of the horizontal one.
         let factor = |motion: &Option<Motion>| match motion {
@@ -56,7 +51,7 @@ fn a_station_is_its_components_scaled_by_one_factor() {
         };
         let common = factor(&sized.excitation.horizontal);
         let vertical =
-            scene(path, &record("vertical", "-UP", &format!("scale = {common:?}\nstart = 1"))).expect("valid");
+            scene(&folder, &record("vertical", "-UP", &format!("scale = {common:?}\nstart = 1"))).expect("valid");
         assert_eq!(sized.excitation.vertical, vertical.excitation.vertical, "{component}");
     }
 }
@@ -64,23 +59,21 @@ fn a_station_is_its_components_scaled_by_one_factor() {
 #[test]
 fn an_axis_takes_the_records_of_a_folder_with_their_components() {
     let folder = folder();
-    let path = folder.path();
-    let write = |name: &str, text: &str| std::fs::write(path.join(name), text).expect("written");
-    write(
+    folder.write(
         "base.toml",
-        &format!(
+        format!(
             "{COLUMN}[excitation.station]\nrecord = \"records/RSN9001\"\nvertical = true\npga_g = 0.4\n[solver]\nt_end = 4.0\n"
         ),
     );
-    write(
+    folder.write(
         "sweep.toml",
         "scene = \"base.toml\"\nask = \"peaks\"\n[axes]\nrecord = { folder = \"records\" }\ncomponent = [\"H1\", \"H2\"]\npga_g = [0.3, 0.5]\n",
     );
-    let told = succeeds(path, &["check", "sweep.toml"]);
+    let told = folder.succeeds("check sweep.toml");
     assert!(told.contains("excitation.station.record: 2 value(s), from records/RSN9001 to records/RSN9002"), "{told}");
-    let told = succeeds(path, &["sweep", "sweep.toml", "--plot", "f.svg"]);
-    assert!(told.contains("errors 0") && told.contains("4 records with their"), "{told}");
-    let sweep = Sweep::from_file(&path.join("sweep.toml")).expect("valid");
+    let told = folder.succeeds("sweep sweep.toml --plot f.svg");
+    assert_has(&told, &["errors 0", "4 records with their"]);
+    let sweep = Sweep::from_file(&folder.path("sweep.toml")).expect("valid");
     assert_eq!(sweep.len(), 8);
     for row in sweep.rows(0..8) {
         let (component, size) = (["000", "090"][row.index / 2 % 2], [0.3, 0.5][row.index % 2]);
@@ -90,7 +83,7 @@ fn an_axis_takes_the_records_of_a_folder_with_their_components() {
         let alone = format!(
             "[excitation.horizontal]\nkind = \"record\"\nfile = \"{file}\"\npga_g = {size}\n[solver]\nt_end = 4.0\n"
         );
-        let alone = scene(path, &alone).expect("valid");
+        let alone = scene(&folder, &alone).expect("valid");
         assert_eq!(own.excitation.horizontal, alone.excitation.horizontal, "{}", row.index);
         assert!(matches!(own.excitation.vertical, Some(Motion::Record(_))));
         // The run of the row is that of its scene alone.
@@ -101,24 +94,23 @@ fn an_axis_takes_the_records_of_a_folder_with_their_components() {
     }
     // A component is part of the sweep: no output replaces it, and the digest is another one with another vertical component.
     let up = "records/RSN9002_HOLLOW_MIL-UP.AT2";
-    let output = rocking(path, &["sweep", "sweep.toml", "--out", up]);
-    assert_eq!(output.status.code(), Some(2), "{}", String::from_utf8_lossy(&output.stderr));
+    folder.refused(&format!("sweep sweep.toml --out {up}"), &[]);
     let digest = || {
-        succeeds(path, &["sweep", "sweep.toml", "--shard", "1/1", "--out", "d.csv"]);
-        std::fs::read_to_string(path.join("d.csv.digest")).expect("written")
+        folder.succeeds("sweep sweep.toml --shard 1/1 --out d.csv");
+        folder.read("d.csv.digest")
     };
     let before = digest();
-    let text = std::fs::read_to_string(path.join(up)).expect("there");
-    write(up, &format!("{text}\n"));
+    let text = folder.read(up);
+    folder.write(up, format!("{text}\n"));
     let changed = digest();
-    write(up, &text);
+    folder.write(up, &text);
     assert!(before != changed && before == digest());
 
     // A record without the component is a row with its error, and all others have results.
-    std::fs::remove_file(path.join("records/RSN9002_HOLLOW_MIL090.AT2")).expect("there");
-    let told = succeeds(path, &["sweep", "sweep.toml"]);
+    folder.remove("records/RSN9002_HOLLOW_MIL090.AT2");
+    let told = folder.succeeds("sweep sweep.toml");
     assert!(told.contains("errors 2"), "{told}");
-    let table = std::fs::read_to_string(path.join("sweep.csv")).expect("written");
+    let table = folder.read("sweep.csv");
     let said = "RSN9002: it has no horizontal component `H2`, only records/RSN9002_HOLLOW_MIL-UP.AT2, records/RSN9002_HOLLOW_MIL000.AT2; choose H1, H2 or the end of a file's name, or leave the record out";
     assert_eq!(table.matches(said).count(), 2, "{table}");
 }
@@ -126,8 +118,7 @@ fn an_axis_takes_the_records_of_a_folder_with_their_components() {
 #[test]
 fn a_record_without_what_is_asked_for_is_refused_with_file_and_remedy() {
     let folder = folder();
-    let path = folder.path();
-    std::fs::remove_file(path.join("records/RSN9002_HOLLOW_MIL-UP.AT2")).expect("there");
+    folder.remove("records/RSN9002_HOLLOW_MIL-UP.AT2");
     let station = |keys: &str| format!("[excitation.station]\n{keys}\n");
     for (excitation, said) in [
         (
@@ -154,7 +145,34 @@ fn a_record_without_what_is_asked_for_is_refused_with_file_and_remedy() {
             ["vertical", "`station` is given as well"],
         ),
     ] {
-        let message = scene(path, &excitation).expect_err(&excitation);
+        let message = scene(&folder, &excitation).expect_err(&excitation);
         assert!(said.iter().all(|part| message.contains(part)), "{excitation}\n{message}");
     }
+}
+
+/// A station's record is found in the scene's own folder as well.
+#[test]
+fn a_record_beside_the_scene_needs_no_folder() {
+    let scene = "[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.6\n[excitation.station]\nrecord = \"R1\"\n";
+    let folder = Folder::with("scene.toml", scene);
+    folder.write("R1_H1.csv", "t (s),a (m/s2)\n0,0\n0.01,1\n0.02,0\n");
+    assert!(folder.succeeds("run scene.toml --out out").starts_with("no uplift, stands at rest"));
+}
+
+/// A record whose link leads nowhere is missing; without it, another component would stand for the one that was asked for.
+#[cfg(unix)]
+#[test]
+fn links_of_a_folder_that_lead_nowhere_are_refused() {
+    let folder = Folder::new();
+    let pulse = "[excitation.horizontal]\nkind = \"sine-pulse\"\namplitude = 4.0\nomega = 10.0\n";
+    folder.write("scene.toml", SCENE.replace(pulse, "[excitation.station]\nrecord = \"records/RSN1\"\n"));
+    folder.write("records/RSN1_X_090.csv", "t (s),a (m/s2)\n0,0\n0.01,1\n0.02,0\n");
+    folder.link("nowhere/RSN1_X_000.csv", "records/RSN1_X_000.csv");
+    folder.refused("run scene.toml", &["RSN1_X_000.csv", "No such file"]);
+    folder.write(
+        "ida.toml",
+        "scene = \"scene.toml\"\nmeasure = \"pga\"\nlevels = [0.5]\n[records]\nfolder = \"records\"\n",
+    );
+    folder.refused("ida ida.toml", &["RSN1_X_000.csv", "No such file"]);
+    assert!(folder.succeeds("record records").contains("RSN1_X_000.csv"));
 }

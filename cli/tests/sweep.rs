@@ -1,42 +1,41 @@
 //! Sweeps: what their axes may be, and that rows are the runs of their scenes.
 
-mod common;
+use crate::common::scenes::{BLOCK, OVERTURNS};
+use crate::common::sweeps::{BASE, PULSE, SWEEP, folder, table};
+use crate::common::{Folder, Row, Table, assert_has, failed};
+use std::collections::BTreeSet;
 
-use common::sweeps::{BASE, SWEEP, folder, table};
-
-fn rows(text: &str) -> Vec<Vec<String>> {
-    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(text.as_bytes());
-    reader.records().map(|row| row.expect("CSV").iter().map(String::from).collect()).collect()
+/// Runs the sweep of the folder.
+fn swept(folder: &Folder) -> Table {
+    Table::of(&table(folder, ""))
 }
 
 /// Every row is what `rocking run` says of the scene with those values.
 #[test]
 fn rows_are_the_runs_of_their_scenes() {
     let folder = folder(SWEEP);
-    let text = table(folder.path(), &[]);
-    let rows = rows(&text);
+    let table = swept(&folder);
     let header = ["index", "column.blocks", "excitation.horizontal.omega_p", "excitation.horizontal.amplitude_g"];
-    assert_eq!(rows[0][..4], header);
-    assert_eq!(rows.len(), 61);
-    let mut fates = std::collections::BTreeSet::new();
-    for row in rows[1..].iter().step_by(3) {
-        let [_, blocks, omega, amplitude, outcome, impacts, block, t, truncated, error] = &row[..] else {
+    assert_eq!(table.columns()[..4], header);
+    assert_eq!(table.len(), 60);
+    let mut fates = BTreeSet::new();
+    for row in table.rows().step_by(3) {
+        let [_, blocks, omega, amplitude, outcome, impacts, block, t, truncated, error] = row.cells()[..] else {
             panic!("{row:?}")
         };
         let scene = BASE
             .replace("blocks = 2", &format!("blocks = {blocks}"))
             .replace("omega = 10.0", &format!("omega_p = {omega}"))
             .replace("amplitude = 3.0", &format!("amplitude_g = {amplitude}"));
-        std::fs::write(folder.path().join("one.toml"), scene).expect("written");
-        let summary = common::succeeds(folder.path(), &["run", "one.toml", "--json"]);
-        let summary: serde_json::Value = serde_json::from_str(&summary).expect("JSON");
+        folder.write("one.toml", scene);
+        let summary = folder.answers("run one.toml --json");
         assert_eq!(summary["status"] == "overturned", outcome == "overturns", "{row:?}");
         assert_eq!(error, "");
-        assert_eq!(summary["truncated"].to_string(), *truncated, "{row:?}");
-        fates.insert(outcome.clone());
+        assert_eq!(summary["truncated"].to_string(), truncated, "{row:?}");
+        fates.insert(outcome);
         if outcome == "overturns" {
-            assert_eq!(summary["impacts"].to_string(), *impacts, "{row:?}");
-            assert_eq!(summary["overturned_block"].to_string(), *block);
+            assert_eq!(summary["impacts"].to_string(), impacts, "{row:?}");
+            assert_eq!(summary["overturned_block"].to_string(), block);
             let at = summary["overturned_at"].as_f64().expect("a time");
             assert!((at - t.parse::<f64>().expect("a time")).abs() < 1e-6 * at, "{row:?}");
         } else {
@@ -53,78 +52,60 @@ fn a_scene_that_fails_is_a_row_with_its_error() {
     let folder = folder(
         "scene = \"base.toml\"\n[axes]\nkind = [\"sine-pulse\", \"harmonic\", \"ricker\"]\nphase = [0.1, 0.2]\n",
     );
-    let output = common::rocking(folder.path(), &["sweep", "sweep.toml", "--out", "t.csv", "--json"]);
-    assert!(output.status.success());
-    let text = std::fs::read_to_string(folder.path().join("t.csv")).expect("written");
-    let outcomes: Vec<String> = rows(&text)[1..].iter().map(|row| row[3].clone()).collect();
-    assert_eq!(outcomes, ["error", "error", "rocks", "rocks", "error", "error"], "{text}");
-    assert!(rows(&text)[1..3].iter().all(|row| row[8].contains("unknown")), "{text}");
+    folder.succeeds("sweep sweep.toml --out t.csv --json");
+    let table = folder.table("t.csv");
+    assert_eq!(table.texts("outcome"), ["error", "error", "rocks", "rocks", "error", "error"], "{table:?}");
+    assert!(table.texts("error")[..2].iter().all(|error| error.contains("unknown")), "{table:?}");
     // As many columns of peaks as a column may have blocks.
-    let many = "scene = \"base.toml\"\nask = \"peaks\"\n[axes]\nblocks = [2, 1000000000]\n";
-    std::fs::write(folder.path().join("sweep.toml"), many).expect("written");
-    let text = table(folder.path(), &[]);
-    assert!(rows(&text)[0].len() < 120 && rows(&text)[2].last().is_some_and(|error| error.contains("1 to 100")));
-    std::fs::write(folder.path().join("sweep.toml"), "scene = \"base.toml\"\n[axes]\neta = [0.9, 1.5, 0.8]\n")
-        .expect("written");
-    let text = table(folder.path(), &[]);
-    let rows = rows(&text);
-    assert_eq!(rows.iter().filter(|row| row[2] == "error").count(), 1);
-    assert!(rows[2][7].contains("restitution.eta") && rows[2][7].contains("0 to 1"), "{text}");
+    folder.write("sweep.toml", "scene = \"base.toml\"\nask = \"peaks\"\n[axes]\nblocks = [2, 1000000000]\n");
+    let table = swept(&folder);
+    assert!(table.columns().len() < 120 && table.texts("error")[1].contains("1 to 100"), "{table:?}");
+    folder.write("sweep.toml", "scene = \"base.toml\"\n[axes]\neta = [0.9, 1.5, 0.8]\n");
+    let table = swept(&folder);
+    assert_eq!(table.texts("outcome").iter().filter(|outcome| **outcome == "error").count(), 1);
+    let error = table.texts("error")[1];
+    assert!(error.contains("restitution.eta") && error.contains("0 to 1"), "{table:?}");
 }
 
 #[test]
 fn peaks_are_asked_for_and_paired_axes_run_together() {
     let sweep = "scene = \"base.toml\"\ncombine = \"paired\"\nask = \"peaks\"\n[axes]\nomega_p = [2, 3, 4]\n[axes.excitation.horizontal]\namplitude_g = [0.3, 0.4, 0.5]\n";
     let folder = folder(sweep);
-    let rows = rows(&table(folder.path(), &[]));
-    assert_eq!(rows.len(), 4);
-    assert_eq!(rows[0][7..], ["peak_1", "peak_2", "last_mode", "truncated", "error"]);
-    let scene = BASE.replace("omega = 10.0", "omega_p = 4").replace("amplitude = 3.0", "amplitude_g = 0.5");
-    std::fs::write(folder.path().join("one.toml"), scene).expect("written");
-    let summary = common::succeeds(folder.path(), &["run", "one.toml", "--json"]);
-    let summary: serde_json::Value = serde_json::from_str(&summary).expect("JSON");
+    let table = swept(&folder);
+    assert_eq!(table.len(), 3);
+    assert_eq!(table.columns()[7..], ["peak_1", "peak_2", "last_mode", "truncated", "error"]);
+    folder
+        .write("one.toml", BASE.replace("omega = 10.0", "omega_p = 4").replace("amplitude = 3.0", "amplitude_g = 0.5"));
+    let summary = folder.answers("run one.toml --json");
     let alpha = 0.4f64.atan2(0.78);
     let expected = summary["peak_theta"][1].as_f64().expect("a number") / alpha;
-    assert!((rows[3][8].parse::<f64>().expect("a number") / expected - 1.0).abs() < 1e-12, "{rows:?}");
+    assert!((table.row(2).number("peak_2") / expected - 1.0).abs() < 1e-12, "{table:?}");
 }
 
 /// Records of a folder and seeds are axes like others.
 #[test]
 fn records_and_seeds_are_axes() {
     let folder = folder("scene = \"base.toml\"\n[axes]\nfile = { folder = \"records\" }\npga_g = [0.3, 0.6]\n");
-    std::fs::create_dir(folder.path().join("records")).expect("made");
-    let synthetic = common::root().join("scenes/records/synthetic.AT2");
-    for name in ["a.AT2", "b.AT2"] {
-        std::fs::copy(&synthetic, folder.path().join("records").join(name)).expect("copied");
-    }
-    let record = BASE
-        .replace("kind = \"sine-pulse\"\namplitude = 3.0\nomega = 10.0", "kind = \"record\"\nfile = \"records/a.AT2\"");
-    std::fs::write(folder.path().join("base.toml"), record).expect("written");
-    let rows_of_records = rows(&table(folder.path(), &[]));
-    assert_eq!(rows_of_records.len(), 5);
-    assert_eq!(rows_of_records[1][3..], rows_of_records[3][3..], "the same record gives the same row");
+    let put = |name: &str| folder.copy("scenes/records/synthetic.AT2", &format!("records/{name}"));
+    put("a.AT2");
+    put("b.AT2");
+    folder.write("base.toml", BASE.replace(PULSE, "kind = \"record\"\nfile = \"records/a.AT2\""));
+    let of_records = swept(&folder);
+    assert_eq!(of_records.len(), 4);
+    let results = |row: usize| of_records.row(row).cells()[3..].to_vec();
+    assert_eq!(results(0), results(2), "the same record gives the same row");
     // Velocities that a database gives beside are left out; a vertical component does not shake the base sideways.
-    let beside = |name: &str| std::fs::copy(&synthetic, folder.path().join("records").join(name)).expect("copied");
-    beside("a.VT2");
-    assert_eq!(rows(&table(folder.path(), &[])), rows_of_records);
-    beside("RSN1_A-UP.AT2");
-    let output = common::rocking(folder.path(), &["sweep", "sweep.toml", "--out", "t.csv"]);
-    let error = String::from_utf8_lossy(&output.stderr);
-    assert!(
-        !output.status.success() && error.contains("RSN1_A-UP.AT2") && error.contains("excitation.station"),
-        "{error}"
-    );
-    let output = common::rocking(folder.path(), &["run", "sweep.toml", "--out", "out"]);
-    assert!(String::from_utf8_lossy(&output.stderr).contains("`rocking sweep`"), "{output:?}");
-    let synthetic =
-        BASE.replace("kind = \"sine-pulse\"\namplitude = 3.0\nomega = 10.0", "kind = \"synthetic\"\npga_g = 0.5");
-    std::fs::write(folder.path().join("base.toml"), synthetic).expect("written");
-    let seeds = "scene = \"base.toml\"\nask = \"peaks\"\n[axes]\nseed = { from = 1, to = 50 }\n";
-    std::fs::write(folder.path().join("sweep.toml"), seeds).expect("written");
-    let rows = rows(&table(folder.path(), &[]));
-    let peaks: std::collections::BTreeSet<&str> = rows[1..].iter().map(|row| row[6].as_str()).collect();
-    assert!(rows.iter().all(|row| row[2] != "error"), "whole numbers are whole: {rows:?}");
-    assert_eq!((rows.len(), peaks.len()), (51, 50), "each seed its own: {rows:?}");
+    put("a.VT2");
+    assert_eq!(swept(&folder), of_records);
+    put("RSN1_A-UP.AT2");
+    folder.refused("sweep sweep.toml --out t.csv", &["RSN1_A-UP.AT2", "excitation.station"]);
+    folder.refused("run sweep.toml --out out", &["`rocking sweep`"]);
+    folder.write("base.toml", BASE.replace(PULSE, "kind = \"synthetic\"\npga_g = 0.5"));
+    folder.write("sweep.toml", "scene = \"base.toml\"\nask = \"peaks\"\n[axes]\nseed = { from = 1, to = 50 }\n");
+    let table = swept(&folder);
+    let peaks: BTreeSet<&str> = table.texts("peak_1").into_iter().collect();
+    assert!(!table.texts("outcome").contains(&"error"), "whole numbers are whole: {table:?}");
+    assert_eq!((table.len(), peaks.len()), (50, 50), "each seed its own: {table:?}");
 }
 
 #[test]
@@ -195,13 +176,8 @@ fn bad_sweeps_name_file_line_key_and_remedy() {
         ("scene = \"base.toml\"\n[axes]\neta = [0.5]\n\"restitution.eta\" = [0.7]\n", vec!["line 4", "axis as well"]),
     ] {
         let folder = folder(sweep);
-        let output = common::rocking(folder.path(), &["sweep", "sweep.toml", "--out", "t.csv"]);
-        let message = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{sweep}\n{message}");
-        for part in named {
-            assert!(message.contains(part), "`{part}` is missing in\n{message}\nof\n{sweep}");
-        }
-        assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 2, "something was written for {sweep}");
+        failed(&folder.rocking("sweep sweep.toml --out t.csv"), 2, sweep, &named);
+        assert_eq!(folder.names(""), ["base.toml", "sweep.toml"], "something was written for {sweep}");
     }
 }
 
@@ -215,26 +191,24 @@ fn items_of_lists_are_axes() {
         format!("[initial]\ntheta = [0.01, {theta}]\nomega = [{omega}, 0.0]\n")
             + &BASE.replace("omega = 10.0", "period = 0.6")
     };
-    std::fs::write(folder.path().join("base.toml"), base("0.0", "0.0")).expect("written");
-    let rows = rows(&table(folder.path(), &[]));
-    assert_eq!(rows[0][1..3], ["initial.theta[2]", "initial.omega[1]"]);
-    assert_eq!(rows.len(), 5);
-    for row in &rows[1..] {
-        std::fs::write(folder.path().join("one.toml"), base(&row[1], &row[2])).expect("written");
-        let summary = common::succeeds(folder.path(), &["run", "one.toml", "--json"]);
-        let summary: serde_json::Value = serde_json::from_str(&summary).expect("JSON");
+    folder.write("base.toml", base("0.0", "0.0"));
+    let table = swept(&folder);
+    assert_eq!(table.columns()[1..3], ["initial.theta[2]", "initial.omega[1]"]);
+    assert_eq!(table.len(), 4);
+    for row in table.rows() {
+        folder.write("one.toml", base(row.text("initial.theta[2]"), row.text("initial.omega[1]")));
+        let summary = folder.answers("run one.toml --json");
         let peak = summary["peak_theta"][1].as_f64().expect("a number") / 0.4f64.atan2(0.78);
-        assert!((row[8].parse::<f64>().expect("a number") / peak - 1.0).abs() < 1e-12, "{row:?}");
+        assert!((row.number("peak_2") / peak - 1.0).abs() < 1e-12, "{row:?}");
     }
 }
 
 /// A key of a scene with both components, or with a list of the same name, says of which it is.
 #[test]
 fn keys_that_may_be_one_of_several_are_refused() {
-    let folder = folder("");
     let vertical = "[excitation.vertical]\nkind = \"harmonic\"\namplitude_g = 0.2\nfrequency = 2.0\n";
     let base = BASE.replace("omega = 10.0", "period = 0.6") + "[initial]\nomega = [0.0, 0.1]\n" + vertical;
-    std::fs::write(folder.path().join("base.toml"), base).expect("written");
+    let folder = Folder::with("base.toml", &base);
     for (axis, is_clear) in [
         ("amplitude_g = [0.1]", false),
         ("omega = [1.0]", false),
@@ -243,9 +217,8 @@ fn keys_that_may_be_one_of_several_are_refused() {
         ("\"omega[1]\" = [1.0]", true),
         ("\"excitation.horizontal.amplitude_g\" = [0.1]", true),
     ] {
-        std::fs::write(folder.path().join("sweep.toml"), format!("scene = \"base.toml\"\n[axes]\n{axis}\n"))
-            .expect("written");
-        let output = common::rocking(folder.path(), &["sweep", "sweep.toml", "--out", "t.csv"]);
+        folder.write("sweep.toml", format!("scene = \"base.toml\"\n[axes]\n{axis}\n"));
+        let output = folder.rocking("sweep sweep.toml --out t.csv");
         let message = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.success(), is_clear, "{axis}: {message}");
         assert_eq!(message.contains("one of several keys"), !is_clear, "{axis}: {message}");
@@ -259,21 +232,22 @@ fn axes_are_in_the_order_of_the_file_and_round_numbers_are_round() {
         blocks = { from = 1, to = 4, steps = 3, scale = \"log\" }\n\
         excitation.horizontal.amplitude_g = [0.1]\n";
     let folder = folder(sweep);
-    let rows = rows(&table(folder.path(), &[]));
-    assert_eq!(rows[0][1..4], ["excitation.horizontal.omega_p", "column.blocks", "excitation.horizontal.amplitude_g"]);
-    let values = |axis: usize| rows[1..].iter().map(|row| row[axis].as_str()).collect::<Vec<_>>();
-    assert_eq!(values(1), ["0.1", "0.1", "0.1", "1", "1", "1", "10", "10", "10"]);
-    assert_eq!(values(2)[..3], ["1", "2", "4"]);
+    let table = swept(&folder);
+    let axes = ["excitation.horizontal.omega_p", "column.blocks", "excitation.horizontal.amplitude_g"];
+    assert_eq!(table.columns()[1..4], axes);
+    assert_eq!(table.texts(axes[0]), ["0.1", "0.1", "0.1", "1", "1", "1", "10", "10", "10"]);
+    assert_eq!(table.texts(axes[1])[..3], ["1", "2", "4"]);
     for (axis, expected) in [
         ("amplitude = { from = 1e-4, to = 1e3, steps = 8", "0.0001,0.001,0.01,0.1,1,10,100,1000"),
         ("rtol = { from = 1e-12, to = 1e-9, steps = 4", "1e-12,1e-11,1e-10,1e-9"),
         ("overturn_angle = { from = 0.1, to = 1.5, steps = 3", "0.1,0.3872983346207417,1.5"),
     ] {
-        let sweep = format!("scene = \"base.toml\"\n[axes]\n{axis}, scale = \"log\" }}\n[axes.solver]\n# none\n");
-        std::fs::write(folder.path().join("sweep.toml"), sweep).expect("written");
-        let text = table(folder.path(), &[]);
-        let values: Vec<&str> = text.lines().skip(1).filter_map(|line| line.split(',').nth(1)).collect();
-        assert_eq!(values.join(","), expected);
+        folder.write(
+            "sweep.toml",
+            format!("scene = \"base.toml\"\n[axes]\n{axis}, scale = \"log\" }}\n[axes.solver]\n# none\n"),
+        );
+        let table = swept(&folder);
+        assert_eq!(table.texts(table.columns()[1]).join(","), expected);
     }
 }
 
@@ -287,9 +261,9 @@ fn the_sweep_of_the_readme_runs() {
         .find(|text| text.contains("[axes]"));
     let sweep = sweep.expect("the README shows a sweep").replace("steps = 100", "steps = 2");
     let folder = folder(&sweep);
-    let rows = rows(&table(folder.path(), &[]));
-    assert_eq!(rows.len(), 17);
-    assert!(rows[1..].iter().all(|row| row[4] != "error"), "{rows:?}");
+    let table = swept(&folder);
+    assert_eq!(table.len(), 16);
+    assert!(!table.texts("outcome").contains(&"error"), "{table:?}");
 }
 
 /// Slabs that slide, and drums that rock; the rows are what `rocking run` says of the scenes.
@@ -297,67 +271,58 @@ fn the_sweep_of_the_readme_runs() {
 fn friction_is_an_axis_and_residual_slides_are_asked_for() {
     let sweep = "scene = \"base.toml\"\nask = \"slides\"\n[axes]\nfriction = [0.2, 0.4, 2.5]\nhalf_width = [0.4, 1.0]\namplitude_g = [0.1, 0.6, 3.0]\n";
     let folder = folder(sweep);
-    let text = table(folder.path(), &[]);
-    let rows = rows(&text);
-    assert_eq!(rows[0][1..4], ["friction", "column.half_width", "excitation.horizontal.amplitude_g"]);
+    let table = swept(&folder);
+    let axes = ["friction", "column.half_width", "excitation.horizontal.amplitude_g"];
+    assert_eq!(table.columns()[1..4], axes);
     assert_eq!(
-        rows[0][8..],
+        table.columns()[8..],
         ["peak_1", "peak_2", "last_mode", "residual_slide_1", "residual_slide_2", "truncated", "error"]
     );
-    let mut fates = std::collections::BTreeSet::new();
-    for row in &rows[1..] {
+    let mut fates = BTreeSet::new();
+    for row in table.rows() {
+        let [friction, half_width, amplitude] = axes.map(|axis| row.text(axis));
         let scene = BASE
-            .replace("half_width = 0.4", &format!("half_width = {}", row[2]))
-            .replace("amplitude = 3.0", &format!("amplitude_g = {}", row[3]));
-        std::fs::write(folder.path().join("one.toml"), format!("friction = {}\n{scene}", row[1])).expect("written");
-        let summary = common::succeeds(folder.path(), &["run", "one.toml", "--json"]);
-        let summary: serde_json::Value = serde_json::from_str(&summary).expect("JSON");
-        for (interface, cell) in row[11..13].iter().enumerate() {
-            let residual = summary["sliding"]["residual_slide"][interface].as_f64().expect("a number");
-            let slide: f64 = cell.parse().expect("a number");
+            .replace("half_width = 0.4", &format!("half_width = {half_width}"))
+            .replace("amplitude = 3.0", &format!("amplitude_g = {amplitude}"));
+        folder.write("one.toml", format!("friction = {friction}\n{scene}"));
+        let summary = folder.answers("run one.toml --json");
+        for interface in 1..=2 {
+            let residual = summary["sliding"]["residual_slide"][interface - 1].as_f64().expect("a number");
+            let slide = row.number(&format!("residual_slide_{interface}"));
             // Rows of a response do not change the motion.
             assert!((slide - residual).abs() <= 1e-9 * residual.abs().max(1e-3), "{row:?}, {residual}");
         }
-        let status = match row[4].as_str() {
+        let status = match row.text("outcome") {
             "overturns" => "overturned",
             "collapses" => "collapsed",
             "undetermined" => "undetermined",
             _ => "",
         };
         assert!(status.is_empty() || summary["status"] == status, "{row:?}");
-        fates.insert(row[4].clone());
+        fates.insert(row.text("outcome"));
     }
     assert!(["no-uplift", "slides", "rocks", "overturns"].iter().all(|fate| fates.contains(*fate)), "{fates:?}");
     // Static and kinetic coefficients by their own names.
     let base = format!("friction = {{ static = 0.5, kinetic = 0.3 }}\n{BASE}");
-    std::fs::write(folder.path().join("base.toml"), base).expect("written");
-    std::fs::write(folder.path().join("sweep.toml"), "scene = \"base.toml\"\n[axes]\nkinetic = [0.3, 0.4, 0.6]\n")
-        .expect("written");
-    let text = table(folder.path(), &[]);
+    folder.write("base.toml", base);
+    folder.write("sweep.toml", "scene = \"base.toml\"\n[axes]\nkinetic = [0.3, 0.4, 0.6]\n");
+    swept(&folder);
+    let text = folder.read("t.csv");
     assert!(text.starts_with("index,friction.kinetic,outcome") && text.contains("static"), "{text}");
 }
 
 #[test]
 fn residual_slides_of_scenes_without_friction_are_refused() {
     let folder = folder("scene = \"base.toml\"\nask = \"slides\"\n[axes]\nomega_p = [2, 3]\n");
-    let output = common::rocking(folder.path(), &["sweep", "sweep.toml"]);
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{message}");
-    for part in ["sweep.toml", "line 2", "`ask`", "without friction", "let friction be an axis"] {
-        assert!(message.contains(part), "`{part}` is not in {message}");
-    }
+    let named = ["sweep.toml", "line 2", "`ask`", "without friction", "let friction be an axis"];
+    folder.refused("sweep sweep.toml", &named);
 }
 
 /// What no row could answer is refused: validity with friction, from the base scene or an axis.
 #[test]
 fn validity_of_scenes_with_friction_is_refused() {
     let folder = folder("scene = \"base.toml\"\nask = \"validity\"\n[axes]\nfriction = [0.3, 0.5]\n");
-    let output = common::rocking(folder.path(), &["sweep", "sweep.toml"]);
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{message}");
-    for part in ["sweep.toml", "line 2", "`ask`", "with friction", "slides"] {
-        assert!(message.contains(part), "`{part}` is not in {message}");
-    }
+    folder.refused("sweep sweep.toml", &["sweep.toml", "line 2", "`ask`", "with friction", "slides"]);
 }
 
 /// `friction = 0.5` of a base scene is short for a static coefficient: an axis may change that, or add a kinetic one.
@@ -365,9 +330,9 @@ fn validity_of_scenes_with_friction_is_refused() {
 fn coefficients_of_friction_are_axes_over_the_short_form() {
     let outcomes = |base: &str, axes: &str| {
         let folder = folder(&format!("scene = \"base.toml\"\nask = \"slides\"\n[axes]\n{axes}"));
-        std::fs::write(folder.path().join("base.toml"), format!("{base}\n{BASE}")).expect("written");
-        let text = table(folder.path(), &[]);
-        rows(&text)[1..].iter().map(|row| row[2..].to_vec()).collect::<Vec<_>>()
+        folder.write("base.toml", format!("{base}\n{BASE}"));
+        let cells = |row: Row| row.cells()[2..].iter().map(ToString::to_string).collect::<Vec<_>>();
+        swept(&folder).rows().map(cells).collect::<Vec<_>>()
     };
     let long = outcomes("friction = { static = 0.5, kinetic = 0.2 }", "friction.static = [0.3, 0.4]\n");
     assert!(long.iter().all(|row| row[0] != "error"), "{long:?}");
@@ -382,18 +347,104 @@ fn coefficients_of_friction_are_axes_over_the_short_form() {
 #[test]
 fn folders_of_files_hold_components_of_one_direction() {
     let folder = folder("scene = \"base.toml\"\n[axes]\n\"excitation.vertical.file\" = { folder = \"records\" }\n");
-    let base = "[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.6\n[excitation.vertical]\nkind = \"record\"\nfile = \"records/A_UP.csv\"\n";
-    std::fs::write(folder.path().join("base.toml"), base).expect("written");
-    std::fs::create_dir(folder.path().join("records")).expect("made");
-    let put = |name: &str, text: &str| std::fs::write(folder.path().join("records").join(name), text).expect("written");
+    folder.write("base.toml", "[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.6\n[excitation.vertical]\nkind = \"record\"\nfile = \"records/A_UP.csv\"\n");
+    let put = |name: &str, text: &str| folder.write(&format!("records/{name}"), text);
     put("A_UP.csv", "t [s],a [m/s2]\n0,0\n0.1,1\n0.2,0\n");
     put("README.md", "where the records are from");
     put("_SearchResults.csv", "the list of the database");
     put("readme.txt", "the same");
-    let text = table(folder.path(), &[]);
+    let text = table(&folder, "");
     assert!(text.lines().count() == 2 && text.contains("A_UP.csv"), "{text}");
     put("A_EW.csv", "t [s],a [m/s2]\n0,0\n0.1,1\n0.2,0\n");
-    let output = common::rocking(folder.path(), &["sweep", "sweep.toml"]);
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.code() == Some(2) && message.contains("A_EW.csv is a horizontal component"), "{message}");
+    folder.refused("sweep sweep.toml", &["A_EW.csv is a horizontal component"]);
+}
+
+#[test]
+fn a_sweep_without_any_result_fails_with_the_first_reason() {
+    let folder = folder("scene = \"base.toml\"\n[axes]\neta = [1.5, 2.5]\n");
+    for arguments in ["sweep sweep.toml", "sweep sweep.toml --quiet", "sweep sweep.toml --json"] {
+        folder.fails(1, arguments, &["sweep.csv", "none of the 2 point(s)", "restitution.eta", "1.5"]);
+    }
+    folder.write("sweep.toml", "scene = \"base.toml\"\n[axes]\neta = [1.5, 0.9]\n");
+    assert!(folder.succeeds("sweep sweep.toml").contains("errors 1"));
+}
+
+#[test]
+fn an_unreadable_record_does_not_switch_off_the_check_for_unknown_keys() {
+    let axes =
+        |key: &str| format!("scene = \"base.toml\"\n[axes]\nfile = {{ folder = \"records\" }}\n{key} = [0.3, 0.6]\n");
+    let folder = folder(&axes("pga_gg"));
+    folder.copy("scenes/records/synthetic.AT2", "records/b.AT2");
+    folder.write("records/a.txt", "no record\n");
+    folder.write("base.toml", BASE.replace(PULSE, "kind = \"record\"\nfile = \"records/b.AT2\""));
+    folder.refused("sweep sweep.toml", &["pga_gg", "unknown"]);
+    assert!(!folder.has("sweep.csv"));
+    folder.write("sweep.toml", axes("pga_g"));
+    let told = folder.succeeds("sweep sweep.toml");
+    assert_has(&told, &["errors 2", "the first error: "]);
+}
+
+#[test]
+fn impacts_are_blank_where_a_run_ends_when_its_outcome_is_certain() {
+    for (ask, overturns, rocks) in [("outcome", true, false), ("overturns", false, false), ("peaks", true, true)] {
+        let folder = folder(&format!("ask = \"{ask}\"\n{SWEEP}"));
+        let mut seen = 0;
+        for row in swept(&folder).rows() {
+            let counted = match row.text("outcome") {
+                "no-uplift" => true,
+                "rocks" => rocks,
+                _ => overturns,
+            };
+            seen += usize::from(row.text("outcome") != "no-uplift");
+            assert_eq!(counted, !row.text("impacts").is_empty(), "{ask}: {row:?}");
+        }
+        assert!(seen > 10);
+        folder.succeeds("plot t.csv");
+        let figure = folder.read("t.svg");
+        assert_eq!(figure.contains("overturns (impacts not counted)"), !overturns);
+    }
+}
+
+/// The line of the base scene has a sound value: the one at fault stands on the axis.
+#[test]
+fn a_value_of_an_axis_is_not_blamed_on_the_base_scene() {
+    let folder = folder("scene = \"base.toml\"\n[axes]\neta = [0.9, 1.5]\n");
+    folder.succeeds("sweep sweep.toml --out t.csv");
+    let table = folder.read("t.csv");
+    assert!(table.contains("axis `restitution.eta`: 1.5 is out of range") && !table.contains("base.toml"), "{table}");
+    folder.refused("sweep sweep.toml --out t.xlsx", &["t.xlsx", "CSV or Parquet"]);
+}
+
+#[test]
+fn run_and_sweep_have_one_vocabulary_and_one_unit() {
+    let folder =
+        Folder::with("s.toml", &format!("{BLOCK}kind = \"sine-pulse\"\namplitude_uplift = 2\nomega_p = 5.0\n"));
+    let told = folder.succeeds("run s.toml");
+    let own = folder.summary();
+    assert!(told.starts_with("rocks and stands") && told.contains("largest |θ|/α, base first: 0."), "{told}");
+    folder.write("sweep.toml", "scene = \"s.toml\"\nask = \"peaks\"\n[axes]\ngravity = [9.81]\n");
+    folder.succeeds("sweep sweep.toml --out t.csv");
+    let table = folder.table("t.csv");
+    let row = table.row(0);
+    assert_eq!((row.text("outcome"), Some(row.number("peak_1"))), ("rocks", own["peaks"][0].as_f64()), "{row:?}");
+    assert_eq!(own["outcome"], "rocks");
+    let (alpha, p) = (own["alpha"][0].as_f64().expect("a number"), own["p"][0].as_f64().expect("a number"));
+    assert!(
+        (alpha - (0.4f64 / 1.56).atan()).abs() < 1e-15 && (p - (0.75 * 9.81 / 0.4f64.hypot(1.56)).sqrt()).abs() < 1e-12
+    );
+    assert_eq!(own["peak_theta"][0].as_f64().expect("a number") / alpha, own["peaks"][0].as_f64().expect("a number"));
+}
+
+#[test]
+fn steps_of_axes_are_decimal_numbers() {
+    let folder = Folder::with("s.toml", &format!("{BLOCK}{OVERTURNS}"));
+    let axes =
+        "[axes]\namplitude_uplift = { from = 0.1, to = 2.5, steps = 25 }\nstart = { from = -1, to = 1, steps = 21 }\n";
+    folder.write("sweep.toml", format!("scene = \"s.toml\"\n{axes}"));
+    let sweep = rocking::Sweep::from_file(&folder.path("sweep.toml")).expect("valid");
+    let texts = |axis: usize| sweep.axes[axis].values.iter().map(ToString::to_string).collect::<Vec<_>>();
+    let expected =
+        |from: i32, to: i32| (from..=to).map(|tenths| format!("{}", f64::from(tenths) / 10.0)).collect::<Vec<_>>();
+    assert_eq!(texts(0), expected(1, 25));
+    assert_eq!(texts(1), expected(-10, 10));
 }

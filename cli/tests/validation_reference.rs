@@ -3,12 +3,11 @@
 //! next one at the right interface within 1e-9 s, the same outcome; on generated and on generic equations, with DOP853 and
 //! with Taylor series.
 
-mod common;
 #[path = "../../tests/common/reference.rs"]
 mod reference;
 
+use crate::common::{Folder, parsed, root};
 use serde_json::Value;
-use std::path::Path;
 
 /// Angles `[rad]`.
 const ANGLE_TOLERANCE: f64 = 1e-9;
@@ -21,45 +20,34 @@ fn floats(value: &Value) -> Vec<f64> {
     value.as_array().map(|list| list.iter().filter_map(Value::as_f64).collect()).unwrap_or_default()
 }
 
-fn json(path: &Path) -> Value {
-    serde_json::from_str(&std::fs::read_to_string(path).expect("readable")).expect("JSON")
-}
-
-/// Time and angles per row of `response.csv`.
-fn rows(path: &Path, blocks: usize) -> Vec<(f64, Vec<f64>)> {
-    let mut csv = csv::Reader::from_path(path).expect("readable");
-    let number = |field: &str| field.parse::<f64>().expect("a number");
-    let row = |row: csv::StringRecord| (number(&row[0]), (1..=blocks).map(|i| number(&row[i])).collect());
-    csv.records().map(|record| row(record.expect("a row"))).collect()
-}
-
 fn compare(name: &str, run: &Value, dynamics: &str, method: &str) {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = Folder::new();
     let solver = format!("rtol = 1e-12\natol = 1e-14\nmethod = \"{method}\"\n");
-    std::fs::write(folder.path().join("scene.toml"), reference::scene(run, &solver)).expect("written");
-    common::succeeds(folder.path(), &["run", "scene.toml", "--out", "out", "--dynamics", dynamics, "--quiet"]);
-    let out = folder.path().join("out");
+    folder.write("scene.toml", reference::scene(run, &solver));
+    folder.succeeds(&format!("run scene.toml --out out --dynamics {dynamics} --quiet"));
 
     let times = floats(&run["samples"]["t"]);
     let angles = run["samples"]["theta"].as_array().expect("samples");
     let own_error = run["estimated_error"]["theta"].as_f64().expect("an error");
     let tolerance = ANGLE_TOLERANCE.max(10.0 * own_error);
-    let rows = rows(&out.join("response.csv"), floats(&angles[0]).len());
+    let response = folder.table("out/response.csv");
+    let ours = response.numbers("t");
     let mut worst = 0.0f64;
     for (t, theta) in times.iter().zip(angles) {
-        let (_, ours) = rows.iter().find(|row| (row.0 - t).abs() < 1e-9).expect("a row for each sample");
-        for (a, b) in ours.iter().zip(floats(theta)) {
+        let place = ours.iter().position(|own| (own - t).abs() < 1e-9).expect("a row for each sample");
+        for (block, b) in (1..).zip(floats(theta)) {
+            let a = response.row(place).number(&format!("theta_{block}"));
             worst = worst.max((a - b).abs());
             assert!((a - b).abs() <= tolerance, "{name}, {dynamics}: {a} for {b} at t = {t}");
         }
     }
 
-    let summary = json(&out.join("summary.json"));
+    let summary = folder.summary();
     assert_eq!(run["status"] == "overturned", summary["status"] == "overturned", "{name}, {dynamics}");
     if let Some(at) = run["overturned_at"].as_f64() {
         assert!((at - summary["overturned_at"].as_f64().expect("a time")).abs() < TIME_TOLERANCE, "{name}");
     }
-    let ours = json(&out.join("events.json"));
+    let ours = folder.json("out/events.json");
     let impacts = |events: &Value| -> Vec<(f64, Value)> {
         let events = events.as_array().expect("events").iter().filter(|event| event["kind"] == "impact");
         events.map(|event| (event["t"].as_f64().expect("a time"), event["interface"].clone())).collect()
@@ -88,14 +76,14 @@ fn compare(name: &str, run: &Value, dynamics: &str, method: &str) {
 #[test]
 #[cfg_attr(not(has_shared), ignore = "needs ../shared")]
 fn reference_runs_are_reproduced() {
-    let folder = common::root().join("../shared/reference");
+    let folder = root().join("../shared/reference");
     let entries = std::fs::read_dir(&folder).expect("the folder of the runs");
     let mut files: Vec<_> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
     files.retain(|path| path.extension().is_some_and(|extension| extension == "json"));
     files.sort();
     assert!(!files.is_empty(), "{} has no runs", folder.display());
     for path in files {
-        let run = json(&path);
+        let run = parsed(&std::fs::read_to_string(&path).expect("readable"));
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         for dynamics in ["generated", "generic"] {
             for method in ["dop853", "taylor"] {

@@ -1,7 +1,7 @@
 //! A small sweep and a folder with it.
 
-use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use super::Folder;
+use std::process::Child;
 use std::time::Duration;
 
 /// Two blocks under a pulse.
@@ -21,6 +21,9 @@ t_end = 6.0
 rtol = 1e-6
 ";
 
+/// The pulse of [`BASE`], for another motion to take its place.
+pub const PULSE: &str = "kind = \"sine-pulse\"\namplitude = 3.0\nomega = 10.0";
+
 /// Sixty points, with all outcomes.
 pub const SWEEP: &str = "scene = \"base.toml\"
 [axes]
@@ -30,28 +33,21 @@ amplitude_g = { from = 0.1, to = 3.0, steps = 6, scale = \"log\" }
 ";
 
 /// A folder with `base.toml` and `sweep.toml`.
-pub fn folder(sweep: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().expect("a folder");
-    std::fs::write(folder.path().join("base.toml"), BASE).expect("written");
-    std::fs::write(folder.path().join("sweep.toml"), sweep).expect("written");
+pub fn folder(sweep: &str) -> Folder {
+    let folder = Folder::with("base.toml", BASE);
+    folder.write("sweep.toml", sweep);
     folder
 }
 
-/// Runs the sweep of the folder; the text of its table.
-pub fn table(folder: &Path, arguments: &[&str]) -> String {
-    let all = [&["sweep", "sweep.toml", "--out", "t.csv", "--quiet"], arguments].concat();
-    super::succeeds(folder, &all);
-    std::fs::read_to_string(folder.join("t.csv")).expect("written")
+/// Runs the sweep of the folder with more arguments; the text of its table, `t.csv`.
+pub fn table(folder: &Folder, arguments: &str) -> String {
+    folder.succeeds(&format!("sweep sweep.toml --out t.csv --quiet {arguments}"));
+    folder.read("t.csv")
 }
 
 /// Starts the sweep of the folder on one thread.
-pub fn start(folder: &Path, table: &str) -> Child {
-    Command::new(env!("CARGO_BIN_EXE_rocking"))
-        .args(["sweep", "sweep.toml", "--out", table, "--threads", "1", "--quiet"])
-        .current_dir(folder)
-        .stderr(Stdio::null())
-        .spawn()
-        .expect("started")
+pub fn start(folder: &Folder, table: &str) -> Child {
+    folder.start(&format!("sweep sweep.toml --out {table} --threads 1 --quiet"))
 }
 
 /// The sweep with points enough to be killed while it runs.
@@ -59,11 +55,11 @@ pub fn long() -> String {
     SWEEP.replace("steps = 5", "steps = 40").replace("steps = 6", "steps = 100").replace("[1, 2]", "[3]")
 }
 
-/// Runs the sweep of the folder, kills it without warning after longer and longer times, and starts it again until it comes to its end.
-pub fn kill_and_go_on(folder: &Path, table: &str, mut after_kill: impl FnMut()) {
+/// Starts a command, kills it without warning after longer and longer times, and starts it again until it comes to its end.
+pub fn kill_and_go_on(start: impl Fn() -> Child, mut after_kill: impl FnMut()) {
     let mut kills = 0;
     for wait in (15..).step_by(20) {
-        let mut child = start(folder, table);
+        let mut child = start();
         std::thread::sleep(Duration::from_millis(wait));
         child.kill().expect("SIGKILL");
         if child.wait().expect("it ends").success() {

@@ -1,0 +1,154 @@
+//! `rocking check` and `rocking thresholds` say what a scene or a sweep is before it is run.
+
+use crate::common::sweeps::{BASE, SWEEP, folder};
+use crate::common::{Folder, assert_has, project};
+use serde_json::Value;
+
+#[test]
+fn a_sweep_file_is_checked_as_a_sweep() {
+    let folder = folder(SWEEP);
+    let text = folder.succeeds("check sweep.toml");
+    assert_has(
+        &text,
+        &["60 point(s)", "blocks: 2 value(s), from 1 to 2", "base.toml is valid", "rocking sweep sweep.toml"],
+    );
+    let found = folder.answers("check sweep.toml --json");
+    assert_eq!((&found["points"], found["axes"].as_array().map(Vec::len)), (&60.into(), Some(3)));
+    folder.write("base.toml", BASE.replace("eta = 0.9", "eta = 9"));
+    folder.refused("check sweep.toml", &["base.toml", "restitution.eta"]);
+}
+
+/// The column of the paper: p = 2.14 rad/s, slenderness 0.25, thresholds of its tables.
+#[test]
+fn a_check_explains_the_papers_column() {
+    let (folder, scene) = (Folder::new(), project("scenes/paper-3-blocks-3.00.toml"));
+    let text = folder.succeeds(&["check", &scene]);
+    assert_has(&text, &["p = 2.14", "alpha = 0.25", "one-sine pulse", "PGA 0.75", "eta = 0.9", "response.csv"]);
+    let check = folder.answers(&["check", &scene, "--json"]);
+    let stacks = check["stacks"].as_array().expect("a list");
+    assert_eq!(stacks.len(), 3);
+    let number = |value: &Value| value.as_f64().expect("a number");
+    // Housner (1963): 1 - 3/2 sin² α of a homogeneous rectangle.
+    let alpha = number(&stacks[0]["slenderness"]);
+    assert!((number(&stacks[0]["housner_ratio"]) - (1.0 - 1.5 * alpha.sin().powi(2))).abs() < 1e-12);
+    assert_eq!(check["horizontal"]["kind"], "sine-pulse");
+    // Of a one-sine pulse: 2 a / ω and 2π a / ω².
+    let (a, omega) = (number(&check["horizontal"]["amplitude"]), number(&check["horizontal"]["omega"]));
+    assert!((number(&check["horizontal"]["pgv"]) - 2.0 * a / omega).abs() < 1e-3 * a / omega);
+    let left = number(&check["horizontal"]["left_with"][1]);
+    assert!((left - std::f64::consts::TAU * a / (omega * omega)).abs() < 1e-12);
+}
+
+/// What a file leaves open is said: here density, masses, inertias and sizes of equal blocks.
+#[test]
+fn a_check_says_what_was_derived() {
+    let scene = "[column]\nblocks = 4\nhalf_width = 0.5\nhalf_height = 2.0\nmass = 8.0\n";
+    let folder = Folder::with("a.toml", scene);
+    let text = folder.succeeds("check a.toml");
+    assert_has(
+        &text,
+        &["column.half_height = 0.5 m", "column.mass = 2 kg", "column.inertia = 0.333333 kg m²", "does not move"],
+    );
+    folder.write(
+        "b.toml",
+        "[[block]]\nhalf_width = 0.5\nhalf_height = 0.5\nmass = 2.0\ninertia = 1.0\n[solver]\nt_end = 10\n",
+    );
+    assert!(!folder.succeeds("check b.toml").contains("derived"));
+    let check = folder.answers("check b.toml --json");
+    assert_eq!(check["derived"], Value::Array(Vec::new()));
+}
+
+#[test]
+fn thresholds_are_the_papers_tables_1_and_2() {
+    for (scene, expected) in [
+        ("paper-1-block-3.00", vec!["1.02"]),
+        ("paper-2-blocks-3.00", vec!["1.02", "2.04"]),
+        ("paper-3-blocks-3.00", vec!["1.02", "1.53", "3.06"]),
+    ] {
+        let text = Folder::new().succeeds(&["thresholds", &project(&format!("scenes/{scene}.toml"))]);
+        let ratios: Vec<&str> = text.lines().skip(2).filter_map(|line| line.split_whitespace().nth(4)).collect();
+        assert_eq!(ratios, expected, "{text}");
+    }
+}
+
+#[test]
+fn a_check_counts_the_vertical_ground_motion() {
+    let folder = Folder::new();
+    let scene = "friction = 5.0\n[[block]]\nhalf_width = 0.5\nhalf_height = 0.5\n\
+                 [excitation.horizontal]\nkind = \"rectangular\"\namplitude_g = 0.8\nduration = 1.0\n\
+                 [excitation.vertical]\nkind = \"rectangular\"\namplitude_g = -0.4\nduration = 1.0\n";
+    folder.write("scene.toml", scene);
+    let text = folder.succeeds("check scene.toml");
+    // A cube opens at 1 g, and at 0.6 g while the ground falls at 0.4 g.
+    assert!(
+        text.contains("with the vertical motion it opens interface(s) 1 of the column at rest, the first at t = 0"),
+        "{text}"
+    );
+    assert!(!text.contains("at the PGA it"), "{text}");
+}
+
+/// A block of t = b/h = 1/4 (FRICTION: closed form 1): its coefficients to rock without sliding at 0.5, 1 and 2 g.
+#[test]
+fn a_check_says_what_slides_before_it_rocks() {
+    let folder = Folder::new();
+    let check = |friction: f64, amplitude: f64| {
+        let scene = format!(
+            "friction = {friction}\n[column]\nblocks = 1\nhalf_width = 0.25\nhalf_height = 1.0\n\
+             [excitation.horizontal]\nkind = \"sine-pulse\"\namplitude_g = {amplitude}\nomega = 6.0\n"
+        );
+        folder.write("scene.toml", scene);
+        let found = folder.answers("check scene.toml --json");
+        (folder.succeeds("check scene.toml"), found["contacts"][0].clone())
+    };
+    for (amplitude, expected) in [(0.5, 0.30986), (1.0, 0.41558), (2.0, 0.58427)] {
+        let (text, contact) = check(0.45, amplitude);
+        // Given with five digits.
+        let needed = contact["coefficient_to_rock"].as_f64().expect("a number");
+        assert!((needed - expected).abs() < 5e-6, "{needed}, {expected}");
+        let (verdict, words) = match expected < 0.45 {
+            true => ("rocks", "rocks without sliding"),
+            false => ("slides-and-rocks", "slides and rocks"),
+        };
+        assert_eq!(contact["at_pga"], verdict);
+        assert!(text.contains("interface 1 opens at 0.25 g before it slides at 0.45 g; at the PGA it"), "{text}");
+        assert!(text.contains(words), "{text}");
+    }
+    let (text, contact) = check(0.2, 0.5);
+    assert!(text.contains("interface 1 slides at 0.2 g before it opens at 0.25 g"), "{text}");
+    assert_eq!((&contact["at_pga"], contact["coefficient_to_rock"].is_null()), (&"slides".into(), true));
+    assert_eq!(check(0.2, 0.1).1["at_pga"], "rests");
+}
+
+/// A displaced block makes one side weaker, and vertical motion changes the weight: the time of the first slide or opening decides, not a threshold.
+#[test]
+fn a_check_says_what_this_ground_motion_does_first() {
+    let folder = Folder::new();
+    let check = |scene: &str| {
+        folder.write("scene.toml", scene);
+        let found = folder.answers("check scene.toml --json");
+        (folder.succeeds("check scene.toml"), found["contacts"][0].clone())
+    };
+    let displaced = |amplitude: f64| {
+        format!(
+            "[friction]\nstatic = [0.4, 3.0]\n[column]\nblocks = 2\nhalf_width = 0.4\nhalf_height = 0.6\n[initial]\nslide = [0.0, 0.2]\n\
+             [excitation.horizontal]\nkind = \"rectangular\"\namplitude_g = {amplitude}\nduration = 0.05\n"
+        )
+    };
+    // The centroid is 0.1 m to the right: the base opens at 0.5 g to one side, and at 0.83 g to the other.
+    let (text, contact) = check(&displaced(0.55));
+    assert!(text.contains("interface 1 slides at 0.4 g, and opens, to its weaker side, at 0.5 g; under this ground motion it slides, at"), "{text}");
+    assert_eq!((contact["slides_from"].as_f64(), contact["opens_from"].is_null()), (Some(0.0), true));
+    let (text, contact) = check(&displaced(-0.55));
+    assert_eq!((contact["slides_from"].as_f64(), contact["opens_from"].as_f64()), (Some(0.0), Some(0.0)));
+    assert!(
+        contact["at_pga"].is_null() && text.contains("under this ground motion it passes both at t = 0.0000 s"),
+        "{text}"
+    );
+    // |ẍ| = μ (g + ÿ): 0.3 sin = 0.35 (1 - 0.4 sin).
+    let vertical = "friction = 0.35\n[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.0\n[excitation.horizontal]\nkind = \"half-sine\"\n\
+        amplitude_g = 0.3\nperiod = 1.0\n[excitation.vertical]\nkind = \"half-sine\"\namplitude_g = -0.4\nperiod = 1.0\n";
+    let (text, contact) = check(vertical);
+    let expected = (0.35f64 / (0.3 + 0.35 * 0.4)).asin() / std::f64::consts::TAU;
+    assert!((contact["slides_from"].as_f64().expect("it slides") - expected).abs() < 1e-12, "{contact}");
+    assert!(text.contains(&format!("it slides first, at t = {expected:.4} s")), "{text}");
+}

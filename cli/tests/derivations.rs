@@ -1,0 +1,34 @@
+//! `rocking derive`: equations of a mode as text, code and LaTeX, and what each pass saves.
+
+use crate::common::{Folder, assert_has};
+
+#[test]
+fn derivations_are_printed_as_text_as_code_and_as_latex() {
+    let folder = Folder::new();
+    let text = folder.succeeds("derive --blocks 3 --mode 1.5");
+    assert_has(&text, &["mode 1.5", "(+,0,0)", "T = ", "V = ", "M_11 = ", "Equations of motion", "7 flops"]);
+    let code = folder.succeeds("derive --blocks 2 --mode 1.1 --format rust");
+    assert_has(&code, &["impl<S: Scalar> StepProgram<S> for Dof2", "fn scene_constants"]);
+    let latex = folder.succeeds("derive --blocks 3 --mode 1.5 --format latex");
+    assert_has(&latex, &["\\documentclass", "mode 1.5", "$(+,0,0)$", "J_{1} \\ddot\\theta_{1}", "\\end{document}\n"]);
+    folder.refused("derive --blocks 3 --mode 3.2", &["rocking modes --blocks 3"]);
+}
+
+/// Pinned: what each pass is worth for three drums rocking apart.
+#[test]
+fn operation_counts_are_printed_before_and_after_each_pass() {
+    let output = Folder::new().succeeds("derive --blocks 3 --mode 1.1 --counts");
+    let flops_of = |start: &str| {
+        let line = output.lines().find(|line| line.trim_start_matches([' ', '*']).starts_with(start));
+        let line = line.unwrap_or_else(|| panic!("`{start}` is missing in\n{output}"));
+        let fields: Vec<&str> = line.split_whitespace().rev().take(4).collect();
+        fields[3].parse::<usize>().expect("a count")
+    };
+    assert_eq!(flops_of("mass matrix, rate terms, weight: as differentiated"), 199);
+    assert_eq!(flops_of("each term in its cheapest form"), 119);
+    assert_eq!(flops_of("scene constants hoisted"), 51);
+    assert_eq!(flops_of("turned vectors, rates by pairs, weight by vector, SI"), 100);
+    let kept: Vec<&str> = output.lines().filter(|line| line.starts_with("* turned")).collect();
+    assert_eq!(kept.len(), 2);
+    assert!(kept[0].contains(" 94 ") && kept[1].contains(" 97 "), "{kept:?}");
+}

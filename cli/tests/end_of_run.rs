@@ -1,0 +1,82 @@
+//! The end of a run: chosen where the scene gives none, and never told as if the column stood beyond it.
+
+use crate::common::Folder;
+use crate::common::scenes::{BLOCK, LATE};
+
+#[test]
+fn a_run_without_an_end_goes_on_to_the_end_of_the_record_and_a_free_swing() {
+    let folder = Folder::with("s.toml", &format!("{BLOCK}{LATE}"));
+    folder.succeeds("run s.toml");
+    // The ground rests from the first of the last zeros on, 14 s, and 20/p = 9.4 s are less than 10 s.
+    let own = folder.summary();
+    assert_eq!(own["options"]["t_end"], 24.0);
+    assert_eq!(own["truncated"], false);
+    let text = folder.succeeds("check s.toml");
+    assert!(text.contains("solver.t_end = 24 s: the ground rests from 14 s on"), "{text}");
+}
+
+#[test]
+fn a_run_that_cuts_its_record_says_so_and_not_that_the_column_stands() {
+    let folder = Folder::with("s.toml", &format!("{BLOCK}{LATE}[solver]\nt_end = 5.0\n"));
+    let (told, warned) = folder.says("run s.toml --report");
+    assert!(told.contains("not overturned up to t = 5 s") && !told.contains("stands"), "{told}");
+    assert!(warned.contains("the ground motion is cut: it lasts until t = 14.0000 s"), "{warned}");
+    assert_eq!(folder.summary()["truncated"], true);
+    let page = folder.page();
+    assert!(page.contains("<strong>not overturned</strong>") && !page.contains("<strong>stands</strong>"));
+    // The same record to its end overturns the column.
+    folder.write("s.toml", format!("{BLOCK}{LATE}"));
+    folder.succeeds("run s.toml");
+    assert_eq!(folder.summary()["status"], "overturned");
+}
+
+#[test]
+fn a_run_that_ends_while_its_column_falls_does_not_say_that_it_stands() {
+    let pulse = "kind = \"sine-pulse\"\namplitude_uplift = 4.0\nomega_p = 5.0\n[restitution]\neta = 0.9\n";
+    for friction in ["", "friction = 0.9\n"] {
+        // It overturns at t = 3.1 s.
+        let folder = Folder::with("s.toml", &format!("{friction}{BLOCK}{pulse}[solver]\nt_end = 3.0\n"));
+        let (told, warned) = folder.says("run s.toml --report");
+        assert!(told.contains("not determined; this run rocks; not overturned up to t = 3 s"), "{told}");
+        assert!(told.contains("has the energy to overturn") && !told.contains("stands"), "{told}");
+        assert!(warned.contains("past its balance, or with the energy to get there"), "{warned}");
+        let own = folder.summary();
+        assert_eq!((&own["may_overturn"], &own["truncated"]), (&true.into(), &true.into()));
+        assert_eq!(own["trust"]["determined"], false);
+        let page = folder.page();
+        assert!(
+            page.contains("The verdict is <strong>not determined</strong>")
+                && page.contains("has not overturned up to")
+        );
+        assert!(!page.contains("<strong>stands</strong>"));
+    }
+}
+
+#[test]
+fn a_motion_without_an_end_wants_one_of_its_run() {
+    let harmonic = "kind = \"harmonic\"\namplitude_g = 0.3\nfrequency = 2\n";
+    let folder = Folder::with("s.toml", &format!("{BLOCK}{harmonic}"));
+    folder.refused("run s.toml", &["solver.t_end", "no end"]);
+    folder.write("s.toml", format!("{BLOCK}{harmonic}[solver]\nt_end = 5.0\n"));
+    let (told, warned) = folder.says("run s.toml");
+    assert!(told.contains("the ground still moves"), "{told}");
+    assert_eq!(warned, "", "it must be cut somewhere");
+}
+
+#[test]
+fn rows_of_a_sweep_say_whether_they_are_cut() {
+    let folder = Folder::with("s.toml", &format!("{BLOCK}{LATE}"));
+    let sweep = "scene = \"s.toml\"\n[axes]\n\"solver.t_end\" = [5, 30]\nscale = [0.1, 1]\n";
+    folder.write("sweep.toml", sweep);
+    let told = folder.succeeds("sweep sweep.toml --out t.csv");
+    assert!(told.contains("2 run(s) are cut at solver.t_end"), "{told}");
+    let table = folder.table("t.csv");
+    assert_eq!(table.columns().iter().rev().nth(1), Some(&"truncated"));
+    assert_eq!(table.texts("truncated"), ["true", "true", "false", "false"], "{table:?}");
+    // Without a given end it follows the start of the record from row to row.
+    let sweep = "scene = \"s.toml\"\nask = \"peaks\"\n[axes]\nstart = [0, 100]\n";
+    folder.write("sweep.toml", sweep);
+    folder.succeeds("sweep sweep.toml --out t.csv");
+    let table = folder.read("t.csv");
+    assert_eq!(table.matches("overturns").count(), 2, "{table}");
+}

@@ -1,0 +1,134 @@
+//! `rocking fragility`: curves of the runs in a table, and tables that do not have what a curve needs.
+
+use crate::common::{Folder, assert_has, parsed, unbroken};
+use crate::ida::{BLOCK, folder, run};
+use std::fmt::Write;
+
+/// Columns of blocks are told by their numbers, not by their order: without `peak_2`, `peak_3` was read in its place.
+#[test]
+fn a_table_that_lacks_the_column_of_a_block_is_refused() {
+    let table = "record,PGV,outcome,peak_1,peak_3\na,0.1,rocks,0.1,0.3\na,0.2,rocks,0.2,0.6\n";
+    let folder = Folder::with("t.csv", table);
+    folder.refused(&["fragility", "t.csv", "--state", "peak_2 > 0.2"], &["t.csv", "peak_2"]);
+    folder.write("t.csv", "record,PGV,outcome,peak_2,peak_1\na,0.1,rocks,0.9,0.1\na,0.2,rocks,0.9,0.2\n");
+    let told = folder.succeeds(&["fragility", "t.csv", "--state", "peak_1 > 0.5"]);
+    assert!(told.contains("no run"), "{told}");
+}
+
+/// Columns of one block say nothing of a second one, whether they are lost or not.
+#[test]
+fn fragility_takes_each_run_once_and_only_of_columns_with_the_block() {
+    let folder = Folder::new();
+    let header = "index,record,pgv,outcome,peak_1,peak_2\n";
+    let two = "0,a,0.1,rocks,0.1,0.2\n1,a,0.5,overturns,1.0,1.0\n2,b,0.1,rocks,0.1,0.4\n3,b,0.5,rocks,0.1,0.2\n";
+    let one = "4,c,0.1,overturns,1.0,\n5,c,0.5,rocks,0.2,\n";
+    let table = |rows: &str| folder.write("t.csv", format!("{header}{rows}"));
+    let fit = ["fragility", "t.csv", "--state", "peak_2 > 0.3", "--replicates", "0"];
+    table(two);
+    folder.succeeds(&fit);
+    let shares = || folder.read("t-shares.csv");
+    let alone = shares();
+    table(&format!("{two}{one}"));
+    folder.succeeds(&fit);
+    assert_eq!(shares(), alone);
+    table(&format!("{two}{two}"));
+    folder.refused(&fit, &["row 5", "give each run once"]);
+    // The same numbers of another record are other runs.
+    table(&format!("{two}{}", two.replace(",a,", ",d,").replace(",b,", ",e,")));
+    folder.succeeds(&fit);
+    table(two);
+    folder.refused("fragility t.csv --replicates 3", &["--replicates: 3", "at least 20"]);
+    folder.refused("fragility t.csv --out f.xlsx", &["f.xlsx", ".csv"]);
+    if cfg!(feature = "parquet") {
+        folder.refused("fragility t.csv --out f.parquet", &["f.parquet", "written as CSV"]);
+    }
+}
+
+/// Tables without the columns of a state, and tables without anything.
+#[test]
+fn tables_without_what_a_state_needs_are_refused() {
+    let folder = folder();
+    run(&folder, &format!("{BLOCK}levels = [0.5]\n[records]\nfolder = \"records\"\n"));
+    folder.write("empty.csv", "");
+    for (arguments, told) in [
+        (
+            &["fragility", "ida.csv", "--state", "peak_2 > 0.3"][..],
+            "needs the column peak_2, and the columns of the table have 1 block(s)",
+        ),
+        (&["fragility", "ida.csv", "--state", "slide > 0.1"], "residual_slide_1"),
+        (&["fragility", "empty.csv"], "it is empty"),
+    ] {
+        let message = unbroken(&folder.refused(arguments, &[]));
+        assert!(message.contains(told), "{arguments:?}: {message}");
+    }
+}
+
+/// A sweep over records and a measure is a study as well; a cloud of runs, each at a level of its own, is recognised.
+#[test]
+fn sweeps_and_clouds_have_a_fragility() {
+    let base = "[column]\nblocks = 1\nhalf_width = 0.2\nhalf_height = 0.8\n[excitation.horizontal]\nkind = \"synthetic\"\npga_g = 0.3\n[solver]\nt_end = 30.0\n";
+    let folder = Folder::with("base.toml", base);
+    let sweep =
+        "scene = \"base.toml\"\nask = \"peaks\"\n[axes]\nseed = { from = 1, to = 8 }\npgv = [0.2, 0.4, 0.6, 0.8]\n";
+    folder.write("sweep.toml", sweep);
+    folder.succeeds("sweep sweep.toml --out t.csv --quiet");
+    let found = folder.answers("fragility t.csv --state overturned --state peak>0.2 --json");
+    assert_eq!((&found["measure"], &found["fragilities"][0]["layout"]), (&"pgv".into(), &"stripes".into()));
+    let counts = found["fragilities"][0]["counts"].as_array().expect("a list");
+    assert_eq!(counts.iter().map(|count| count["runs"].as_u64()).collect::<Vec<_>>(), [Some(8); 4]);
+    // Runs each at a level of its own.
+    let mut cloud = String::from("record,pga_g,outcome\n");
+    for k in 0..50 {
+        let outcome = if k * 29 % 50 < k { "overturns" } else { "rocks" };
+        cloud.push_str(&format!("r{k},{},{outcome}\n", 0.1 + 0.02 * f64::from(k)));
+    }
+    folder.write("cloud.csv", &cloud);
+    let told = folder.succeeds("fragility cloud.csv --state overturned --plot c.svg");
+    assert_has(&told, &["overturned: lognormal, median", "over groups"]);
+    assert!(told.contains(" Marks are raw shares of groups of neighbouring levels. Shaded are 90 % bands."), "{told}");
+    let told = folder.succeeds("fragility cloud.csv --state overturned --confidence 0.57 --plot c.svg");
+    assert!(told.contains(" Shaded are 57 % bands."), "{told}");
+    // What the table lacks is told.
+    for (arguments, word) in [
+        ("fragility cloud.csv", "ask = \"peaks\""),
+        ("fragility cloud.csv --measure pgv --state uplift", "no column `pgv`"),
+        ("fragility none.csv", "none.csv"),
+        ("fragility cloud.csv --state toppled", "overturned"),
+    ] {
+        folder.refused(arguments, &[word]);
+    }
+}
+
+/// Rows of another axis are pooled with a warning, and kept apart by `--where`.
+#[test]
+fn rows_of_other_axes_are_kept_apart() {
+    let folder = Folder::new();
+    let mut table = String::from("index,column.alpha,seed,pgv,outcome,truncated\n");
+    for (index, (alpha, lost)) in [(0.15, 4), (0.3, 8)].into_iter().enumerate() {
+        for record in 0..6 {
+            for level in 1..=12 {
+                let outcome = if level + record % 3 > lost { "overturns" } else { "rocks" };
+                let is_cut = alpha > 0.2 && level == 1;
+                let _ = writeln!(table, "{index},{alpha},{record},{},{outcome},{is_cut}", f64::from(level) / 10.0);
+            }
+        }
+    }
+    folder.write("t.csv", table);
+    let fitted = |condition: &str| {
+        let fit = "fragility t.csv --state overturned --replicates 0 --json";
+        let (told, warnings) = folder.says(&format!("{fit} {condition}"));
+        let found = parsed(&told);
+        let counts = found["fragilities"][0]["counts"].as_array().expect("a list");
+        (counts.iter().filter_map(|count| count["runs"].as_u64()).sum::<u64>(), warnings)
+    };
+    let (all, warning) = fitted("");
+    assert!(all == 144 && warning.contains("2 values of `column.alpha`") && warning.contains("--where"), "{warning}");
+    assert_eq!(fitted("--where column.alpha=0.15"), (72, String::new()));
+    let (runs, warning) = fitted("--where column.alpha=0.30");
+    assert!(runs == 72 && warning.contains("6 run(s) end before their ground motion"), "{warning}");
+    for (condition, word) in
+        [("alpha=0.3", "no column `alpha`"), ("column.alpha=0.4", "no row"), ("alpha", "COLUMN=VALUE")]
+    {
+        folder.refused(&format!("fragility t.csv --state overturned --where {condition}"), &[word]);
+    }
+}

@@ -1,0 +1,70 @@
+//! Validity: friction demand and normal forces of a run without friction, up to the point of no return.
+
+use crate::common::Folder;
+use crate::common::scenes::{BLOCK, OVERTURNS};
+
+#[test]
+fn a_textbook_block_that_overturns_is_valid_up_to_the_point_of_no_return() {
+    let folder = Folder::with("s.toml", &format!("{BLOCK}{OVERTURNS}"));
+    assert_eq!(folder.says("run s.toml --report").1, "", "no warning");
+    let own = folder.summary();
+    assert_eq!((&own["outcome"], &own["status"]), (&"overturns".into(), &"overturned".into()));
+    let (validity, fallen) = (&own["validity"], own["overturned_at"].as_f64().expect("a time"));
+    let until = validity["until"].as_f64().expect("a time");
+    assert!(until > 0.0 && until < fallen - 0.1, "{until} {fallen}");
+    let contact = &validity["contacts"][0];
+    let demand = contact["friction_demand"]["value"].as_f64().expect("finite");
+    let whole = own["friction_demand"][0].as_f64().unwrap_or(f64::INFINITY);
+    assert!(demand < 1.0 && whole > demand, "{demand} {whole}");
+    let [t, theta] = ["t", "theta"].map(|key| contact["friction_demand"][key].as_f64().expect("a number"));
+    let alpha = own["alpha"][0].as_f64().expect("a number");
+    assert!(t <= until && theta.abs() <= alpha * 1.000001, "{t} {theta}");
+    assert!(contact["min_normal_force"]["value"].as_f64().expect("finite") > 0.0);
+    let page = folder.page();
+    assert!(!page.contains("The model does not hold") && page.contains("point of no return"));
+    // At the point of no return the block is balanced over its corner.
+    let response = folder.table("out/response.csv");
+    let beyond = response.rows().filter(|row| row.number("theta_1").abs() > alpha).map(|row| row.number("t"));
+    let first = beyond.fold(f64::INFINITY, f64::min);
+    assert!(until <= first && until > first - 0.0101, "{until} {first}");
+}
+
+#[test]
+fn durations_of_friction_demand_are_those_of_the_rows() {
+    let free = "[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.56\n[initial]\ntheta = [0.2]\n[solver]\nt_end = 4\n[output]\ndt = 1e-4\n";
+    let folder = Folder::with("s.toml", free);
+    folder.succeeds("run s.toml");
+    let scene = rocking::Scene::from_toml(free, "s.toml".as_ref()).expect("valid");
+    let response = rocking::simulate(&scene).expect("solved");
+    let needs = &response.validity.as_ref().expect("forces are recorded").contacts[0];
+    let demands = response.samples.iter().map(|row| {
+        let force = &row.contact_forces(&scene.column)[0];
+        (row.t, force.tangential.abs() / force.normal, row.theta[0])
+    });
+    let demands: Vec<(f64, f64, f64)> = demands.collect();
+    for above in &needs.above {
+        let time = 1e-4 * demands.iter().filter(|(_, demand, _)| *demand > above.coefficient).count() as f64;
+        // Demands are linear between three places of a panel.
+        assert!((above.time - time).abs() <= 0.02 * time + 0.002, "{above:?} {time}");
+        assert!((above.share - above.time / 4.0).abs() < 1e-12);
+    }
+    let largest = demands.iter().fold((0.0, 0.0, 0.0), |most, own| if own.1 > most.1 { *own } else { most });
+    let own = needs.friction_demand;
+    assert!((own.value - largest.1).abs() < 1e-3 * largest.1, "{own:?} {largest:?}");
+    assert!((own.t - largest.0).abs() < 2e-3 && (own.theta - largest.2).abs() < 2e-3, "{own:?} {largest:?}");
+}
+
+#[test]
+fn sweeps_carry_what_contacts_need() {
+    let folder = Folder::with("s.toml", &format!("{BLOCK}{OVERTURNS}"));
+    let sweep = "scene = \"s.toml\"\nask = \"validity\"\n[axes]\namplitude_uplift = [0.5, 2, 4]\n";
+    folder.write("sweep.toml", sweep);
+    folder.succeeds("sweep sweep.toml --out t.csv");
+    let table = folder.table("t.csv");
+    assert_eq!(table.texts("valid"), ["true"; 3], "{table:?}");
+    let (demands, forces) = (table.numbers("mu_demand"), table.numbers("min_normal"));
+    // At rest the column asks for a / g = 0.5 tan α, and all of its weight presses.
+    assert!((demands[0] - 0.5 * 0.4 / 1.56).abs() < 1e-3 && forces[0] == 1.0, "{table:?}");
+    assert!(demands[2] > demands[1] && forces[2] < 1.0, "{table:?}");
+    assert_eq!(table.row(2).number("separations"), 0.0);
+}
