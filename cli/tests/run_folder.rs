@@ -61,6 +61,16 @@ fn results_are_not_written_over_what_they_are_made_of() {
     }
 }
 
+/// Events of many impacts can take more than is read: to run the scene again would give the same file.
+#[test]
+fn a_file_too_large_to_be_read_is_refused_with_what_makes_it_smaller() {
+    let folder = Folder::with("scene.toml", SCENE);
+    folder.succeeds("run scene.toml");
+    let events = std::fs::File::options().write(true).open(folder.path("out/events.json")).expect("written");
+    events.set_len((1 << 30) + 1).expect("a file with a hole takes no space");
+    folder.refused("report out", &["events.json", "1073741825 bytes", "output.dt", "solver.t_end"]);
+}
+
 /// Files that read well and are not those of the run: cut at the end of a line, or from another run of the same length.
 #[test]
 fn files_of_another_run_are_refused() {

@@ -71,6 +71,16 @@ pub enum FolderError {
         /// What the system says.
         source: Error,
     },
+    /// A file is larger than any that is read.
+    #[error("{}: it has {bytes} bytes, and at most {most} are read; run the scene again with a larger `output.dt` or an earlier `solver.t_end`", path.display())]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// Its size `[bytes]`.
+        bytes: u64,
+        /// Size of the largest file that is read `[bytes]`.
+        most: u64,
+    },
     /// A file is not the JSON of a run.
     #[error("{}: {source}; {AGAIN}", path.display())]
     Json {

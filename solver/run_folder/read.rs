@@ -231,20 +231,18 @@ fn all_plausible(numbers: impl IntoIterator<Item = f64>) -> bool {
 
 /// The text of a regular file of at most `LARGEST_FILE` bytes.
 pub fn text(path: &Path) -> Result<String, FolderError> {
-    let read = || {
-        let found = std::fs::metadata(path)?;
-        let refused = |problem: String| Err(Error::new(ErrorKind::InvalidInput, problem));
-        if !found.is_file() {
-            return refused("it is a folder, a device or a pipe and no regular file".into());
-        }
-        if found.len() > LARGEST_FILE {
-            return refused(format!("it has {} bytes, and at most {LARGEST_FILE} are read", found.len()));
-        }
-        let mut text = String::new();
-        File::open(path)?.take(LARGEST_FILE).read_to_string(&mut text)?;
-        Ok(text)
-    };
-    read().map_err(|source| FolderError::Read { path: path.into(), source })
+    let unread = |source| FolderError::Read { path: path.into(), source };
+    let found = std::fs::metadata(path).map_err(unread)?;
+    if !found.is_file() {
+        let problem = "it is a folder, a device or a pipe and no regular file";
+        return Err(unread(Error::new(ErrorKind::InvalidInput, problem)));
+    }
+    if found.len() > LARGEST_FILE {
+        return Err(FolderError::TooLarge { path: path.into(), bytes: found.len(), most: LARGEST_FILE });
+    }
+    let mut text = String::new();
+    File::open(path).and_then(|file| file.take(LARGEST_FILE).read_to_string(&mut text)).map_err(unread)?;
+    Ok(text)
 }
 
 fn json<T: serde::de::DeserializeOwned>(path: &Path, text: &str) -> Result<T, FolderError> {
