@@ -84,8 +84,7 @@ impl Joint {
 
     /// The state of coinciding corners that slide an instant later: they are on the face that carries them by then.
     pub fn after_coinciding(side: Sign, direction: Sign) -> Joint {
-        let face = if direction == side { Face::Upper } else { Face::Lower };
-        Joint::Corner(side, face, Slip::Slides(direction))
+        Joint::Corner(side, face_after_coinciding(side, direction), Slip::Slides(direction))
     }
 
     /// The state in the notation of the generator, which names the face of corners that slide only.
@@ -238,6 +237,11 @@ pub fn face(column: &Column, interface: usize, side: Sign, slide: f64) -> Face {
     } else {
         Face::Upper
     }
+}
+
+/// The face that carries coinciding corners that slide, an instant later.
+pub fn face_after_coinciding(side: Sign, direction: Sign) -> Face {
+    if direction == side { Face::Upper } else { Face::Lower }
 }
 
 /// Largest distance of coinciding corners at an interface above the ground `[m]`.

@@ -15,7 +15,7 @@ use super::chain::{Chain, Rates};
 use super::complementarity;
 use super::contact_problem::{Coefficients, Question, Touch, centre, cone_margins, half_length};
 use super::gaps::{self, Corner};
-use super::joint::{Configuration, Face, Joint, Sign, Slip, coincidence, face, joined_above};
+use super::joint::{Configuration, Face, Joint, Sign, Slip, coincidence, face, face_after_coinciding, joined_above};
 use super::rows::{Answer, Rows};
 use crate::column::Column;
 use crate::contact::ENERGY_ROUNDING;
@@ -41,6 +41,11 @@ const IMPACT_SHARE: f64 = 1e-10;
 /// Violation of a condition that counts as rounding, as a share of the accelerations and forces at work.
 pub const ACCELERATION_SHARE: f64 = 5e-12;
 
+/// Violation of the conditions of an interface at the zero of its guard, as a share of the accelerations and forces at work. Steps find that zero to their
+/// tolerance only: the state that it ends may still be admissible, and the next one not yet. If the share were smaller, another state would be taken that
+/// no guard has named; if it were larger, states would change visibly early. It is that of openings without friction.
+const RELEASE_SHARE: f64 = 1e-6;
+
 /// Violation of a guard of forces that counts as rounding, as a share of the forces at work: what ends a state does not count as rounding in the search
 /// for the next.
 pub const GUARD_SLACK_SHARE: f64 = 2.0 * ACCELERATION_SHARE;
@@ -57,6 +62,10 @@ const AMBIGUOUS_FROM: f64 = 0.8;
 
 /// Largest number of interfaces for which all combinations are tried to find a second answer.
 const MOST_BLOCKS_TRIED: usize = 3;
+
+/// Speeds with which blocks come down on each other where a jam is answered as the limit of impacts, as shares of the speed at work. Large ones change the
+/// states, small ones are lost in rounding.
+const APPROACH_SHARES: [f64; 3] = [1e-3, 1e-5, 1e-7];
 
 /// Least difference of some velocity, or acceleration, between two answers with other motions, as a share of the speed, or acceleration, at work. Smaller,
 /// and the rounding of one motion counts as two.
@@ -88,9 +97,13 @@ struct Slack {
 }
 
 impl Slack {
+    fn times(self, factor: f64) -> Slack {
+        Slack { linear: factor * self.linear, angular: factor * self.angular }
+    }
+
     /// The same tolerances, negated: a condition that is tested with them must hold by more than rounding.
     fn margin(self) -> Slack {
-        Slack { linear: -self.linear, angular: -self.angular }
+        self.times(-1.0)
     }
 }
 
@@ -168,6 +181,18 @@ impl<'a> Search<'a> {
         found
     }
 
+    /// The states `before` with the state of one interface that a guard has named, if they are admissible. The instant of the guard's zero is known to the
+    /// tolerance of the steps only: the conditions of this interface may be violated by [`RELEASE_SHARE`].
+    pub fn released(&self, before: &[Joint], interface: usize, joint: Joint) -> Option<Solution> {
+        let mut joints = PerBlock::from_slice(before);
+        joints[interface] = joint;
+        let answer = self.answer(&joints)?;
+        let critical = self.slack.times(RELEASE_SHARE / ACCELERATION_SHARE);
+        let slack = |i: usize| if i == interface { critical } else { self.slack };
+        let holds = (0..joints.len()).all(|i| self.required(&joints, &answer, i, slack(i)).is_none());
+        holds.then_some(Solution { joints, answer, is_ambiguous: false })
+    }
+
     /// The states that follow, with as many slides as the search comes to.
     fn found_from(&self, first: PerBlock<Joint>) -> Option<Solution> {
         let guided = self.guided(first.clone());
@@ -238,10 +263,26 @@ impl<'a> Search<'a> {
         let resting = (0..first.len()).filter(|interface| sliding(*interface).is_some());
         let starts = std::iter::once(first.clone()).chain(resting.map(with_one_at_rest));
         let solutions = starts.filter_map(|start| self.guided(start));
-        solutions.filter(|found| is_other(&found.joints, &found.answer)).min_by(|a, b| {
+        let solution = solutions.filter(|found| is_other(&found.joints, &found.answer)).min_by(|a, b| {
             let energies = [a, b].map(|solution| solution.answer.change.energy(self.column));
             energies[0].total_cmp(&energies[1])
-        })
+        });
+        let approaching = || {
+            let states = APPROACH_SHARES.iter().filter_map(|share| self.states_if_approaching(share * self.linear));
+            let mut solutions = states.filter_map(|states| self.guided(states));
+            solutions.find(|found| is_other(&found.joints, &found.answer))
+        };
+        solution.or_else(approaching)
+    }
+
+    /// The states after an impact in which all blocks come down on those below with this speed `[m/s]` besides their motion: a jam is the limit of such
+    /// impacts. `None` if there is no impact, or Lemke's method finds no states.
+    fn states_if_approaching(&self, speed: f64) -> Option<PerBlock<Joint>> {
+        let Question::Impact(before) = &self.question else { return None };
+        let mut before = before.clone();
+        before.linear.iter_mut().enumerate().for_each(|(block, v)| v[1] -= (block + 1) as f64 * speed);
+        let question = Question::Impact(before);
+        Search::new(self.column, self.now, self.touch, self.friction, question).complementary(&self.friction.kinetic)
     }
 
     /// The states an instant later: coinciding corners that slide continue along the face that carries them by then, or part where that state does
@@ -255,9 +296,8 @@ impl<'a> Search<'a> {
             (joints[interface], is_carried[interface]) = (joint, true);
             let holds = self.answer(&joints).is_some_and(|answer| {
                 let along = f64::from(direction) * answer.motion.slide[interface];
-                let is_given = self.given_slip(interface).is_some();
                 answer.contacts[interface].normal >= -self.force_slack(interface, self.slack)
-                    && (is_given || along >= -self.slack.linear)
+                    && along >= -self.slack.linear
             });
             if !holds {
                 joints[interface] = Joint::Free;
@@ -290,13 +330,12 @@ impl<'a> Search<'a> {
         search.solve_from(search.first()).map(|found| found.joints)
     }
 
-    /// The state of coinciding corners that slide, once they coincide no more, and the direction of the slide; `None` for all others.
+    /// The state of coinciding corners that begin to slide, once they coincide no more, and the direction of the slide; `None` for all others.
     fn joint_an_instant_later(&self, interface: usize, joint: Joint) -> Option<(Joint, Sign)> {
         let Joint::Corner(side, _, Slip::Slides(direction)) = joint else { return None };
-        if face(self.column, interface, side, self.now.slide[interface]) != Face::Both {
-            return None;
-        }
-        Some((Joint::after_coinciding(side, direction), direction))
+        let coincide = face(self.column, interface, side, self.now.slide[interface]) == Face::Both;
+        let begins = coincide && self.given_slip(interface).is_none();
+        begins.then(|| (Joint::after_coinciding(side, direction), direction))
     }
 
     /// The states with which the search begins: what touches sticks, what slides goes on.
@@ -323,10 +362,19 @@ impl<'a> Search<'a> {
         is_given.then_some(Slip::along(rate))
     }
 
+    /// The face that carries a corner. Coinciding corners that slide already are on the face that carries them an instant later: along the other one, their
+    /// velocity would have another direction.
+    fn face(&self, interface: usize, side: Sign) -> Face {
+        match (face(self.column, interface, side, self.now.slide[interface]), self.given_slip(interface)) {
+            (Face::Both, Some(Slip::Slides(direction))) => face_after_coinciding(side, direction),
+            (face, _) => face,
+        }
+    }
+
     /// State of a corner on the face that carries it. Coinciding corners are two contacts, each corner against the prolonged face of the other block:
-    /// they slide outwards along the lower face and inwards along the upper one, and part from the other face.
+    /// they begin to slide outwards along the lower face and inwards along the upper one, and part from the other face.
     fn corner(&self, interface: usize, side: Sign, slip: Slip) -> Joint {
-        let face = match (face(self.column, interface, side, self.now.slide[interface]), slip) {
+        let face = match (self.face(interface, side), slip) {
             (Face::Both, Slip::Slides(direction)) if direction == side => Face::Lower,
             (Face::Both, Slip::Slides(_)) => Face::Upper,
             (face, _) => face,
@@ -564,7 +612,7 @@ impl<'a> Search<'a> {
         match self.touch[interface] {
             Touch::Nothing => None,
             Touch::Corner(side) => {
-                let face = face(self.column, interface, side, self.now.slide[interface]);
+                let face = self.face(interface, side);
                 let leaving = |face| self.leaving(answer, Corner { interface, side, face });
                 let (lower, upper) = (|| leaving(Face::Lower), || leaving(Face::Upper));
                 let apart = match face {

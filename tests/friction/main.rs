@@ -3,6 +3,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod flights;
+mod jams_and_edges;
 mod landings;
 mod slides;
 mod whole_runs;

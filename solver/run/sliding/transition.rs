@@ -207,7 +207,15 @@ impl<'p> PendingTransition<'p> {
         let may_repeat = hint.is_none_or(|(interface, joint)| is_new(joint, interface));
         let is_stale = |solution: &Solution| !may_repeat && solution.joints == before.joints;
         let found = match self.accelerations(&touch, hint) {
-            Some(stale) if is_stale(&stale) => self.search(&touch).solve_otherwise(&before.joints).or(Some(stale)),
+            Some(stale) if is_stale(&stale) => {
+                let search = self.search(&touch);
+                let other = search.solve_otherwise(&before.joints);
+                // With less kinetic than static friction, slides are admissible that need not begin: a guard that names none begins none.
+                let slides = |(now, before): (&Joint, &Joint)| !now.sticks() && now.slip().is_some() && before.sticks();
+                let begins = other.as_ref().is_some_and(|other| other.joints.iter().zip(&before.joints).any(slides));
+                let named = hint.filter(|(_, joint)| begins && joint.sticks());
+                named.and_then(|(at, joint)| search.released(&before.joints, at, joint)).or(other).or(Some(stale))
+            }
             Some(found) => Some(found),
             None => self.search(&touch).solve_otherwise(&before.joints),
         };
@@ -294,7 +302,11 @@ impl<'p> PendingTransition<'p> {
         self.jam();
         match self.stop {
             Some(stop) => Err(stop),
-            None => self.accelerations(&self.touching(), None).ok_or(RunEnd::Undetermined),
+            None => {
+                // What has parted in the jam and touches still is joined: only so does it keep its slide and its momentum.
+                let touch = self.joined();
+                self.accelerations(&touch, None).ok_or(RunEnd::Undetermined)
+            }
         }
     }
 

@@ -5,7 +5,7 @@ use super::{Output, Step};
 use crate::friction::chain::{Pose, Rates};
 use crate::friction::gaps::{self, Corner};
 use crate::friction::guards::Guard;
-use crate::friction::joint::Joint;
+use crate::friction::joint::{Joint, coincidence};
 use crate::friction::search::{ACCELERATION_SHARE, acceleration_scale};
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::guards::first_crossing;
@@ -292,8 +292,12 @@ impl<O: Output> Step<'_, '_, O> {
     }
 
     /// Value up to which a guard that starts from zero has not left zero: rounding, or a share of the hops, bounces and slides that are too low to
-    /// be followed, whichever is larger.
+    /// be followed, whichever is larger. For a corner at the end of its face it is the distance at which corners coincide: further off, the corner would
+    /// stay on that face, and pass its end again and again.
     fn noise(&self, guard: Guard) -> f64 {
+        if let Guard::Edge(interface) = guard {
+            return coincidence(self.smooth.column, interface);
+        }
         let resolution = if let Guard::Stop(_) = guard { self.stick_angle.sqrt() } else { self.stick_angle };
         self.unit(guard) * START_ROUNDING.max(SHARE_OF_RESOLUTION * resolution)
     }

@@ -1,4 +1,4 @@
-//! Events where they hurt: at a step's end, in pairs inside a step, at no rate, at the start, several at once.
+//! Critical events: at the end of a step, in pairs inside a step, at zero rate, at the start, several at once.
 //!
 //! Every claim is held against a closed form, against the mode integrated alone without events, or against brute force over all patterns
 //! (`common/oracle.rs`), for every accurate method on generated and on generic equations.
