@@ -565,6 +565,13 @@ fn regression_contacts_beside_corners_that_part_are_decided_anew() {
     }
 }
 
+/// No motion followed from the velocities after a jam: the contacts jam again.
+#[test]
+fn regression_a_jam_after_a_jam_has_an_answer() {
+    let response = simulate(&scene(Kind::Hostile, 19_948)).expect("a run");
+    assert_eq!(response.status, StopReason::Collapsed, "at {} s", response.t_final);
+}
+
 /// A contact stuck and slid in turn every 3e-8 s, for ever: hops of 4e-15 rad, far below the least that is followed.
 #[test]
 fn regression_circles_of_states_of_which_none_lasts_end_a_run() {
@@ -613,7 +620,13 @@ fn stress_one_seed() {
     println!("{:#?}", scene(kind, seed));
     if let Ok(response) = simulate(&scene(kind, seed)) {
         for event in &response.events {
-            println!("{} {:?} {:?} {} -> {}", event.t, event.kind, event.interface, event.before, event.after);
+            let states =
+                [&event.states_before, &event.states_after].map(|states| states.as_ref().map(ToString::to_string));
+            println!(
+                "{:e} {:?} {:?} {} -> {} {states:?}",
+                event.t, event.kind, event.interface, event.before, event.after
+            );
+            println!("    θ {:?}, θ̇ {:?} -> {:?}", event.theta, event.omega_before, event.omega_after);
         }
         let struck = response.events.iter().filter(|event| event.kind == EventKind::Landing).count();
         println!("{:?} at {}, {struck} landings\n{:#?}", response.status, response.t_final, response.sliding);

@@ -297,17 +297,20 @@ impl<'p> PendingTransition<'p> {
         self.accelerations(&touch, None)
     }
 
-    /// The accelerations after a jam.
+    /// The accelerations after a jam. Velocities jump again where none follow, once for each contact at most.
     fn jammed(&mut self) -> Result<Solution, RunEnd> {
-        self.jam();
-        match self.stop {
-            Some(stop) => Err(stop),
-            None => {
-                // What has parted in the jam and touches still is joined: only so does it keep its slide and its momentum.
-                let touch = self.joined();
-                self.accelerations(&touch, None).ok_or(RunEnd::Undetermined)
+        for _ in 0..self.column().len() {
+            self.jam();
+            if let Some(stop) = self.stop {
+                return Err(stop);
+            }
+            // What has parted in the jam and touches still is joined: only so does it keep its slide and its momentum.
+            let touch = self.joined();
+            if let Some(solution) = self.accelerations(&touch, None) {
+                return Ok(solution);
             }
         }
+        Err(RunEnd::Undetermined)
     }
 
     /// No acceleration is admissible, or forces grow without bound (Painlevé): velocities jump as in an impact.
