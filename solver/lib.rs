@@ -56,6 +56,7 @@ struct BookOfTheLibrary;
 pub mod column;
 pub mod contact;
 mod friction;
+mod in_order;
 pub mod intensity;
 pub mod json;
 mod mechanics;
@@ -74,6 +75,7 @@ pub mod validity;
 
 pub use column::{Block, Column, ColumnError, Stack};
 pub use friction::Friction;
+pub use in_order::in_order;
 pub use mechanics::mode::{IntegrateError, IntegrateOptions, Mode};
 pub use mechanics::{dynamics, generated, generic, kinematics, program};
 pub use numerics::per_block::PerBlock;

@@ -1,13 +1,21 @@
-//! Signals during a computation: Ctrl-C ends it.
+//! Computations that a signal such as Ctrl-C ends: they run on a pool of threads while the calling thread checks for signals.
 //!
-//! The interpreter's lock is taken every [`INTERVAL`] and no more often: with many threads it is contended.
+//! The interpreter's lock is taken every [`INTERVAL`] and no more often: with many threads it is contended. A pool lives for one call only: a process that
+//! is forked later does not inherit a broken one.
 
+use pyo3::exceptions::{PyMemoryError, PyOSError, PyValueError};
 use pyo3::prelude::*;
-use std::ops::ControlFlow;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::ops::{ControlFlow, Range};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
 /// Time between two checks for signals. A user does not notice this time, and taking the lock costs a millionth of it.
-pub const INTERVAL: Duration = Duration::from_millis(50);
+const INTERVAL: Duration = Duration::from_millis(50);
+
+/// Largest number of threads.
+const MOST_THREADS: usize = 1024;
 
 /// Checks for signals during a computation that has released the lock.
 pub struct Signals {
@@ -42,4 +50,77 @@ impl Signals {
     pub fn finish(self) -> PyResult<()> {
         self.raised.map_or(Ok(()), Err)
     }
+}
+
+/// A pool of threads, 0 for as many as the machine has.
+fn pool(threads: usize) -> PyResult<ThreadPool> {
+    if threads > MOST_THREADS {
+        let problem = format!(
+            "threads = {threads} is out of range; give at most {MOST_THREADS}, or 0 for as many as the machine has"
+        );
+        return Err(PyValueError::new_err(problem));
+    }
+    ThreadPoolBuilder::new().num_threads(threads).build().map_err(|failed| PyOSError::new_err(failed.to_string()))
+}
+
+/// The results for all indices of a range, in order. Each thread makes its own with what `worker` returns; a signal ends them after those under way.
+///
+/// # Errors
+/// What a handler of signals raised. `MemoryError` for more results than the memory has room for, `ValueError` for too many threads, `OSError` if there is
+/// no pool.
+pub fn in_order<T: Send, W: FnMut(usize) -> T>(
+    py: Python<'_>,
+    range: Range<usize>,
+    threads: usize,
+    worker: impl Fn() -> W + Sync,
+) -> PyResult<Vec<T>> {
+    let (pool, mut made, mut signals) = (pool(threads)?, Vec::new(), Signals::new());
+    made.try_reserve_exact(range.len()).map_err(|_| {
+        PyMemoryError::new_err(format!(
+            "{} rows do not fit into the memory; give `start` and `stop` of a part (as Sweep.shard has), or write them with rocking.dask.to_parquet",
+            range.len()
+        ))
+    })?;
+    py.detach(|| {
+        rocking::in_order(&pool, range, &worker, |results| {
+            made.extend(results);
+            signals.poll()
+        });
+    });
+    signals.finish()?;
+    Ok(made)
+}
+
+/// What `work` returns, on as many threads as the machine has. `work` is told by its argument when a signal has ended it.
+///
+/// # Errors
+/// What a handler of signals raised. `OSError` if there is no pool.
+pub fn on_all_threads<T: Send>(
+    py: Python<'_>,
+    work: impl FnOnce(&(dyn Fn() -> ControlFlow<()> + Sync)) -> T + Send,
+) -> PyResult<T> {
+    let (pool, mut signals, is_ended) = (pool(0)?, Signals::new(), AtomicBool::new(false));
+    let progress = || match is_ended.load(Ordering::Relaxed) {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
+    };
+    let done = py.detach(|| {
+        std::thread::scope(|scope| {
+            let (running, finished) = channel::<()>();
+            let (pool, progress) = (&pool, &progress);
+            let work = scope.spawn(move || {
+                // Dropped when the work ends, by a panic too: that ends the loop below.
+                let _running = running;
+                pool.install(|| work(progress))
+            });
+            while finished.recv_timeout(INTERVAL) == Err(RecvTimeoutError::Timeout) {
+                if signals.poll().is_break() {
+                    is_ended.store(true, Ordering::Relaxed);
+                }
+            }
+            work.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        })
+    });
+    signals.finish()?;
+    Ok(done)
 }

@@ -1,6 +1,7 @@
 //! Records of ground motion.
 
 use crate::error;
+use crate::interrupt::in_order;
 use crate::scene::Scene;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
@@ -210,8 +211,8 @@ impl Record {
                 "damping = {damping} is out of range; give a ratio from 0 to below 1"
             )));
         }
-        let values: Vec<f64> =
-            py.detach(|| periods.iter().map(|period| self.record.spectral_acceleration(*period, damping)).collect());
+        let values =
+            in_order(py, 0..periods.len(), 0, || |place| self.record.spectral_acceleration(periods[place], damping))?;
         Ok(values.into_pyarray(py))
     }
 

@@ -1,22 +1,19 @@
 //! Scenes, read from the keys of a scene file.
 
 use crate::error;
-use crate::interrupt::{INTERVAL, Signals};
+use crate::interrupt::{Signals, on_all_threads};
 use crate::keys::to_toml;
 use crate::record::Record;
 use crate::run::Response;
-use pyo3::exceptions::{PyOSError, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use rocking::run_folder::SceneText;
 use rocking::trust::{Follow, Trust, follow_run_observed};
 use rocking::{Motion, Wanted, simulate_observed};
 use serde::{Deserialize, Serialize};
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Instant;
 
 /// A scene that has passed the checks of the reader.
@@ -46,35 +43,10 @@ struct Pickled<S, O> {
     origin: O,
 }
 
-/// Runs the companions of a run and returns what they say. The pool lives for this call only: a process that is forked later does not inherit it.
-/// Threads of the pool have no interpreter, so the calling thread checks for signals while they run.
+/// Runs the companions of a run and returns what they say.
 fn follow(py: Python<'_>, scene: &rocking::Scene, response: &rocking::Response) -> PyResult<Trust> {
-    let pool = rayon::ThreadPoolBuilder::new().build();
-    let pool = pool.map_err(|failed| PyOSError::new_err(failed.to_string()))?;
-    let mut signals = Signals::new();
-    let is_ended = AtomicBool::new(false);
-    let progress = |_| match is_ended.load(Ordering::Relaxed) {
-        true => ControlFlow::Break(()),
-        false => ControlFlow::Continue(()),
-    };
-    let followed = py.detach(|| {
-        std::thread::scope(|scope| {
-            let (running, finished) = channel::<()>();
-            let (pool, progress) = (&pool, &progress);
-            let companions = scope.spawn(move || {
-                // Dropped when the companions end, by a panic too: that ends the loop below.
-                let _running = running;
-                pool.install(|| follow_run_observed(scene, response, Follow::default(), progress))
-            });
-            while finished.recv_timeout(INTERVAL) == Err(RecvTimeoutError::Timeout) {
-                if signals.poll().is_break() {
-                    is_ended.store(true, Ordering::Relaxed);
-                }
-            }
-            companions.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
-        })
-    });
-    signals.finish()?;
+    let followed =
+        on_all_threads(py, |progress| follow_run_observed(scene, response, Follow::default(), |_| progress()))?;
     followed.map_err(|failed| error::solve(py, &failed))
 }
 

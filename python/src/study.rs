@@ -1,9 +1,10 @@
 //! Incremental dynamic analysis and fragility.
 
 use crate::error;
+use crate::interrupt::{in_order, on_all_threads};
 use crate::record::{Record, intensity};
 use crate::scene::{Origin, Scene};
-use crate::sweep::{in_parts, per_block, range};
+use crate::sweep::{per_block, range};
 use crate::table::{Column, Names, Values, into_python, whole};
 use numpy::PyReadonlyArray2;
 use numpy::ndarray::ArrayView1;
@@ -154,7 +155,7 @@ impl Ida {
     /// The rows of a range of runs.
     fn table<'py>(&self, py: Python<'py>, start: usize, stop: usize, threads: usize) -> PyResult<Bound<'py, PyList>> {
         let range = range(start, stop, self.ida.len())?;
-        let runs = in_parts(py, range, threads, |part| self.ida.runs(part))?;
+        let runs = in_order(py, range, threads, || self.ida.worker())?;
         let scales = runs.iter().map(|run| run.scale).collect();
         let levels = runs.iter().map(|run| run.level).collect();
         let indices = runs.iter().map(|run| run.index as i64).collect();
@@ -298,10 +299,9 @@ pub fn fragility(
         })
     };
     options.layout = layout.map(named).transpose()?;
-    // One part with one item, which computes its bands on the threads of the pool.
-    let made = in_parts(py, 0..1, 0, |_| vec![Fragility::of(&runs, state, &options)])?;
-    let found = made.first().ok_or_else(|| error::of_study(py, "no curve was made"))?;
-    Ok((serde_json::to_string(found).map_err(error::unwritable)?, found.statements()))
+    let found = on_all_threads(py, |progress| Fragility::of_observed(&runs, state, &options, progress))?;
+    let found = found.expect("a resampling that no signal has ended has a result");
+    Ok((serde_json::to_string(&found).map_err(error::unwritable)?, found.statements()))
 }
 
 /// Probability of the lognormal curve at levels.

@@ -1,9 +1,10 @@
 //! Sweeps: the table of a range of points, with the same columns as that of the command line.
 
 use crate::error;
+use crate::interrupt::in_order;
 use crate::scene::{Origin, Scene};
 use crate::table::{Column, Names, Values, into_python, truth, whole};
-use pyo3::exceptions::{PyIndexError, PyValueError};
+use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 use rocking::scene_file::{Setting, Template};
@@ -12,55 +13,11 @@ use rocking::{Fate, Wanted};
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 /// A base scene and what varies.
 #[pyclass(frozen, module = "rocking._rocking")]
 pub struct Sweep {
     sweep: rocking::Sweep,
-}
-
-/// Largest number of threads.
-const MOST_THREADS: usize = 1024;
-
-/// Shortest and longest duration of a part. A user waits as long for the answer to Ctrl-C; shorter parts waste time, as threads wait for each other
-/// at the end of each.
-const DURATION: Range<Duration> = Duration::from_millis(250)..Duration::from_secs(1);
-
-/// Runs a range in parts on a pool of `threads` threads (0: as many as the machine has). The first part has an item for each thread. Signals are checked
-/// after each part. The pool lives for this call only, so that a process that is forked later does not inherit a broken one.
-///
-/// # Errors
-/// What a handler of signals raised. `ValueError` for too many threads, `OSError` if there is no pool.
-pub fn in_parts<T: Send>(
-    py: Python<'_>,
-    range: Range<usize>,
-    threads: usize,
-    lines: impl Fn(Range<usize>) -> Vec<T> + Sync,
-) -> PyResult<Vec<T>> {
-    if threads > MOST_THREADS {
-        let problem = format!(
-            "threads = {threads} is out of range; give at most {MOST_THREADS}, or 0 for as many as the machine has"
-        );
-        return Err(PyValueError::new_err(problem));
-    }
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = pool.map_err(|failed| pyo3::exceptions::PyOSError::new_err(failed.to_string()))?;
-    let smallest = pool.current_num_threads();
-    let (mut made, mut next, mut size) = (Vec::with_capacity(range.len()), range.start, smallest);
-    while next < range.end {
-        let end = range.end.min(next.saturating_add(size));
-        let start = Instant::now();
-        made.extend(py.detach(|| pool.install(|| lines(next..end))));
-        py.check_signals()?;
-        match start.elapsed() {
-            short if short < DURATION.start => size *= 2,
-            long if long > DURATION.end => size = (size / 2).max(smallest),
-            _ => {}
-        }
-        next = end;
-    }
-    Ok(made)
 }
 
 /// The range `start .. stop`, or an error if it is not within the `length` points or runs of a study.
@@ -119,7 +76,10 @@ impl Sweep {
     fn table<'py>(&self, py: Python<'py>, start: usize, stop: usize, threads: usize) -> PyResult<Bound<'py, PyList>> {
         let range = range(start, stop, self.sweep.len())?;
         let fields = self.sweep.fields().map_err(|refused| error::scene(py, &refused))?;
-        let results = in_parts(py, range.clone(), threads, |part| self.sweep.lines(part, |row| row.result))?;
+        let results = in_order(py, range.clone(), threads, || {
+            let mut row = self.sweep.worker();
+            move |index| row(index).result
+        })?;
         into_python(py, py.detach(|| self.columns(range, &results, &fields)))
     }
 }

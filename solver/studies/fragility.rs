@@ -11,6 +11,7 @@ use rand_pcg::rand_core::Rng;
 use rayon::prelude::*;
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
+use std::ops::ControlFlow;
 
 /// How levels are shared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -246,6 +247,20 @@ impl Fragility {
     /// # Panics
     /// If `options.confidence` is not between 0 and 1.
     pub fn of(runs: &[Observation], state: LimitState, options: &FragilityOptions) -> Fragility {
+        let found = Fragility::of_observed(runs, state, options, || ControlFlow::Continue(()));
+        found.expect("nothing ends the resampling")
+    }
+
+    /// As [`Fragility::of`]; `progress` is called before each replicate, on all threads. `None` once it breaks.
+    ///
+    /// # Panics
+    /// If `options.confidence` is not between 0 and 1.
+    pub fn of_observed(
+        runs: &[Observation],
+        state: LimitState,
+        options: &FragilityOptions,
+        progress: impl Fn() -> ControlFlow<()> + Sync,
+    ) -> Option<Fragility> {
         let is_share = options.confidence > 0.0 && options.confidence < 1.0;
         assert!(is_share, "a confidence of {} is not between 0 and 1", options.confidence);
         let table = Table::of(runs, state);
@@ -276,17 +291,21 @@ impl Fragility {
             (Maximum::Curve(curve), Fit::Lognormal { .. }) => Some(curve),
             _ => None,
         };
-        Fragility {
+        let bands = match curve {
+            Some(_) if options.replicates > 0 => Some(table.bands(options, progress)?),
+            _ => None,
+        };
+        Some(Fragility {
             state,
             layout,
             records: table.records.len(),
             fit,
             goodness: curve.map(|curve| goodness(&counts, &curve, layout)),
-            bands: curve.filter(|_| options.replicates > 0).map(|_| table.bands(options)),
+            bands,
             falls: if layout == Layout::Stripes { falls(&counts) } else { Vec::new() },
             resurrections: table.resurrections(),
             counts,
-        }
+        })
     }
 
     /// Probability of the state at a level by the curve; `None` without one.
@@ -505,7 +524,9 @@ impl Table {
         rises.map(|record| self.records[record].clone()).collect()
     }
 
-    fn bands(&self, options: &FragilityOptions) -> Bands {
+    /// `None` once `progress` breaks.
+    fn bands(&self, options: &FragilityOptions, progress: impl Fn() -> ControlFlow<()> + Sync) -> Option<Bands> {
+        let unless_ended = || progress().is_continue().then_some(());
         // For each record, the level of each decided run, and 1 if the run reached the state, otherwise 0.
         let mut own: Vec<Vec<(usize, f64)>> = vec![Vec::new(); self.records.len()];
         for (record, level, reached) in &self.runs {
@@ -534,7 +555,10 @@ impl Table {
                 _ => None,
             }
         };
-        let curves: Vec<Probit> = (0..options.replicates).into_par_iter().filter_map(replicate).collect();
+        let replicates = (0..options.replicates).into_par_iter();
+        let curves: Option<Vec<Option<Probit>>> =
+            replicates.map(|number| unless_ended().map(|()| replicate(number))).collect();
+        let curves: Vec<Probit> = curves?.into_iter().flatten().collect();
         let tail = 0.5 * (1.0 - options.confidence.clamp(0.0, 1.0));
         let between = |mut values: Vec<f64>| {
             values.sort_by(f64::total_cmp);
@@ -547,16 +571,21 @@ impl Table {
         };
         let own_levels: &[f64] = if is_enough { &self.levels } else { &[] };
         let of = |value: &dyn Fn(&Probit) -> f64| between(curves.iter().map(value).collect());
-        Bands {
+        // A million values are sorted at each level.
+        let at = |levels: &[f64]| -> Option<Vec<[f64; 2]>> {
+            let band = |level: &f64| unless_ended().map(|()| of(&|curve| curve.probability(*level)));
+            levels.par_iter().map(band).collect()
+        };
+        Some(Bands {
             confidence: options.confidence,
             replicates: options.replicates,
             fitted: curves.len(),
             median: is_enough.then(|| of(&Probit::median)),
             dispersion: is_enough.then(|| of(&Probit::dispersion)),
-            at_counts: own_levels.iter().map(|level| of(&|curve| curve.probability(*level))).collect(),
-            probability: levels.iter().map(|level| of(&|curve| curve.probability(*level))).collect(),
+            at_counts: at(own_levels)?,
+            probability: at(&levels)?,
             levels,
-        }
+        })
     }
 }
 

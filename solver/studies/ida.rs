@@ -312,8 +312,16 @@ impl Ida {
     /// As [`Ida::runs`], but returns `made(run)` for each run. The call is on the thread that made the run.
     pub fn lines<T: Send>(&self, range: Range<usize>, made: impl Fn(IdaRun) -> T + Sync) -> Vec<T> {
         let indices = range.into_par_iter().with_min_len(LEAST_RUNS);
-        let simulator = || if self.records_gaps() { Simulator::recording_gaps() } else { Simulator::new() };
-        indices.map_init(simulator, |simulator, index| made(self.run(simulator, index))).collect()
+        indices.map_init(|| self.worker(), |run, index| made(run(index))).collect()
+    }
+
+    /// Makes runs one after another.
+    ///
+    /// # Panics
+    /// If there is no such run.
+    pub fn worker(&self) -> impl FnMut(usize) -> IdaRun {
+        let mut simulator = if self.records_gaps() { Simulator::recording_gaps() } else { Simulator::new() };
+        move |index| self.run(&mut simulator, index)
     }
 
     /// Whether runs record their largest gaps. With friction, and with initial angles or rates, gaps come from rows.

@@ -387,7 +387,16 @@ impl Sweep {
     /// # Panics
     /// If there is no such point.
     pub fn row(&self, index: usize) -> Row {
-        Worker::new(self).row(index)
+        self.worker()(index)
+    }
+
+    /// Runs points one after another: consecutive points share work.
+    ///
+    /// # Panics
+    /// If there is no such point.
+    pub fn worker(&self) -> impl FnMut(usize) -> Row {
+        let mut worker = Worker::new(self);
+        move |index| worker.row(index)
     }
 
     /// Runs a range of points on all threads of the present rayon pool; rows in the order of their points.
@@ -401,7 +410,7 @@ impl Sweep {
     /// As [`Sweep::rows`], but returns `made(row)` for each row. The call is on the thread that made the row.
     pub fn lines<T: Send>(&self, range: Range<usize>, made: impl Fn(Row) -> T + Sync) -> Vec<T> {
         let points = range.into_par_iter().with_min_len(LEAST_POINTS);
-        points.map_init(|| Worker::new(self), |worker, index| made(worker.row(index))).collect()
+        points.map_init(|| self.worker(), |row, index| made(row(index))).collect()
     }
 
     fn outcome(&self, scene: &Scene, response: &Response) -> Outcome {

@@ -27,10 +27,6 @@ use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-/// Number of runs in the first batch, and least number in a later one. It is small: runs with friction take tens of milliseconds, and an
-/// interruption should lose few of them.
-const FIRST_BATCH: usize = 16;
-
 /// Runs a study, or the missing runs of an interrupted one.
 pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     let out = &request.out;
@@ -52,8 +48,10 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     let mut table = Growing::open(&target, &columns, digest(inputs)?.number(), 0..ida.len())?;
     let resumed = table.next;
     let bar = Progress::of_points(ida.len(), resumed, request.quiet || request.json);
-    table.fill(ida.len(), FIRST_BATCH, &threads, &bar, |batch| {
-        ida.lines(batch, |run| cells(ida, &run, columns.len()))
+    let count = columns.len();
+    table.fill(ida.len(), &threads, &bar, || {
+        let mut run = ida.worker();
+        move |index| cells(ida, &run(index), count)
     })?;
     // What was made of an earlier table of this name must not stand beside the new one.
     for table in &derived {

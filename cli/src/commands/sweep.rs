@@ -25,9 +25,6 @@ use rocking::sweep::{Ask, Cell, CellKind, Field, NOT_DETERMINED, Row, Sweep};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// Number of points in the first batch, and least number in a later one.
-const FIRST_BATCH: usize = 256;
-
 /// Runs a sweep, or the missing points of an interrupted one.
 pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
     let out = request.table();
@@ -58,8 +55,12 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
     let mut table = Growing::open(&target, &columns, digest.number(), range.clone())?;
     let resumed = table.next - range.start;
     let bar = Progress::of_points(range.len(), resumed, request.quiet || request.json);
-    table.fill(range.end, FIRST_BATCH, &threads, &bar, |batch| {
-        sweep.lines(batch, |row| fields.iter().map(|field| cell(&row, *field, sweep.ask)).collect::<StringRecord>())
+    table.fill(range.end, &threads, &bar, || {
+        let (mut row, fields, ask) = (sweep.worker(), &fields, sweep.ask);
+        move |index| {
+            let row = row(index);
+            fields.iter().map(|field| cell(&row, *field, ask)).collect()
+        }
     })?;
     let (tally, first_error) = Tally::of(&table.part).map_err(at(Failure::Part, &table.part))?;
     table.close(format, &columns)?;

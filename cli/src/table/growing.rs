@@ -12,15 +12,15 @@ use crate::error::{Failure, at};
 use crate::progress::Progress;
 use csv::StringRecord;
 use rayon::ThreadPool;
+use rocking::in_order;
 use std::fs::{File, TryLockError};
 #[cfg(feature = "parquet")]
 use std::io::BufWriter;
 #[cfg(feature = "parquet")]
 use std::io::ErrorKind;
 use std::io::{BufRead, BufReader, Seek, SeekFrom, Write};
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
 
 /// A table under way.
 #[derive(Debug)]
@@ -34,11 +34,6 @@ pub struct Growing {
     /// The point whose row is due.
     pub next: usize,
 }
-
-/// Largest number of points in a batch. Rows do not depend on the sizes of batches.
-const LARGEST_BATCH: usize = 1 << 16;
-/// Time towards which batches grow and shrink: long enough to keep all threads busy, short enough that an interruption loses little.
-const BATCH_TIME: Duration = Duration::from_millis(250);
 
 impl Growing {
     /// Continues a hidden file that is found, or begins a new one. The table has a row for each of `points`.
@@ -78,30 +73,23 @@ impl Growing {
         self.file.flush()
     }
 
-    /// Makes and writes the rows that are missing up to `end`, in batches of `least` points or more; a batch is written while the one after it runs.
-    pub fn fill(
+    /// Makes and writes the rows that are missing up to `end`. A row is in the file at the latest 0.1 s after it and those before it were made, so that an
+    /// interruption loses little, whatever a run costs.
+    pub fn fill<W: FnMut(usize) -> StringRecord>(
         &mut self,
         end: usize,
-        least: usize,
         threads: &ThreadPool,
         bar: &Progress,
-        lines: impl Fn(Range<usize>) -> Vec<StringRecord> + Send + Sync,
+        worker: impl Fn() -> W + Sync,
     ) -> Result<(), Failure> {
-        let (mut size, mut next, mut last) = (least, self.next, Vec::new());
-        let first = self.first;
-        while self.next < end {
-            let begun = Instant::now();
-            let batch = next..end.min(next + size);
-            next = batch.end;
-            let run = || lines(batch);
-            let (rows, written) = threads.install(|| rayon::join(run, || self.append(&last)));
-            written.map_err(at(Failure::File, &self.out))?;
-            last = rows;
-            bar.reached(self.next - first);
-            size = if begun.elapsed() < BATCH_TIME { (2 * size).min(LARGEST_BATCH) } else { (size / 2).max(least) };
-        }
+        let mut written = Ok(());
+        in_order(threads, self.next..end, worker, |rows| {
+            written = self.append(&rows);
+            bar.reached(self.next - self.first);
+            if written.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        });
         bar.finish();
-        Ok(())
+        written.map_err(at(Failure::File, &self.out))
     }
 
     /// Gives the table its name. At every moment either the hidden file or the table is complete: a sweep that is killed here loses no row.

@@ -1,0 +1,218 @@
+//! Results for a range of indices, made on all threads of a pool and handed over in order.
+//!
+//! Threads take their indices from the front of what is left, a few at a time. A result is therefore handed over soon after it was made, whatever a run
+//! costs, and the work ends between two runs. Results do not depend on the number of threads, nor on the time that runs take.
+
+use rayon::ThreadPool;
+use std::collections::VecDeque;
+use std::ops::{ControlFlow, Range};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::time::{Duration, Instant};
+
+/// Time between two calls of `take`, and for which a thread keeps its results to itself. A user does not notice it, and it is long enough that handing over
+/// costs nothing beside runs of microseconds.
+const INTERVAL: Duration = Duration::from_millis(50);
+
+/// Most indices that a thread takes at once. Consecutive points of a sweep share work; many more at once would keep the results of other threads
+/// waiting where runs suddenly cost a thousand times as much.
+const MOST_AT_ONCE: usize = 64;
+
+/// Most results that a thread keeps to itself. They stay in its cache, and handing over 256 costs some microseconds.
+const MOST_KEPT: usize = 256;
+
+/// A thread takes more indices at once while those it took cost less than this time.
+const SHORT: Duration = Duration::from_millis(2);
+
+/// Indices after which threads wait for each other. It bounds the results that wait in memory for a slow one before them.
+const PART: usize = 1 << 16;
+
+/// Makes a result for each index of `range` on the threads of `pool`; each thread makes its own with what `worker` returns. The calling thread is given
+/// the results in order by `take`, at the latest 0.1 s after they and those before them were made. `take` is called as often where there are none.
+/// When it breaks, no further result is begun.
+///
+/// ```
+/// use std::ops::ControlFlow;
+/// let pool = rayon::ThreadPoolBuilder::new().build()?;
+/// let mut squares = Vec::new();
+/// rocking::in_order(&pool, 0..1000, || |index| index * index, |more| {
+///     squares.extend(more);
+///     ControlFlow::Continue(())
+/// });
+/// assert_eq!(squares.len(), 1000);
+/// assert_eq!(squares[999], 998_001);
+/// # Ok::<(), rayon::ThreadPoolBuildError>(())
+/// ```
+pub fn in_order<T: Send, W: FnMut(usize) -> T>(
+    pool: &ThreadPool,
+    range: Range<usize>,
+    worker: impl Fn() -> W + Sync,
+    mut take: impl FnMut(Vec<T>) -> ControlFlow<()>,
+) {
+    let mut next = range.start;
+    while next < range.end {
+        let end = range.end.min(next.saturating_add(PART));
+        if part(pool, next..end, &worker, &mut take).is_break() {
+            return;
+        }
+        next = end;
+    }
+}
+
+fn part<T: Send, W: FnMut(usize) -> T>(
+    pool: &ThreadPool,
+    range: Range<usize>,
+    worker: &(impl Fn() -> W + Sync),
+    take: &mut impl FnMut(Vec<T>) -> ControlFlow<()>,
+) -> ControlFlow<()> {
+    let front = Front { next: AtomicUsize::new(range.start), end: range.end, is_ended: AtomicBool::new(false) };
+    std::thread::scope(|scope| {
+        let (sender, made) = channel();
+        let front = &front;
+        // The sender is dropped when all threads are done, by a panic too: that ends the loop below.
+        let threads = scope.spawn(move || pool.broadcast(|_| front.work(worker(), &sender)));
+        let (mut next, mut waiting) = (range.start, VecDeque::new());
+        loop {
+            let results: Vec<(usize, T)> = match made.recv_timeout(INTERVAL) {
+                Ok(results) => results,
+                Err(RecvTimeoutError::Timeout) => Vec::new(),
+                Err(RecvTimeoutError::Disconnected) => break,
+            };
+            for (index, result) in results {
+                let place = index - next;
+                waiting.resize_with(waiting.len().max(place + 1), || None);
+                waiting[place] = Some(result);
+            }
+            let due = waiting.iter().take_while(|result| result.is_some()).count();
+            next += due;
+            if take(waiting.drain(..due).flatten().collect()).is_break() {
+                front.is_ended.store(true, Ordering::Relaxed);
+                return ControlFlow::Break(());
+            }
+        }
+        threads.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        ControlFlow::Continue(())
+    })
+}
+
+/// What is left of a range.
+struct Front {
+    next: AtomicUsize,
+    end: usize,
+    is_ended: AtomicBool,
+}
+
+impl Front {
+    /// Makes results until there is no index left, and sends them.
+    fn work<T>(&self, mut made: impl FnMut(usize) -> T, sender: &Sender<Vec<(usize, T)>>) {
+        let (mut results, mut sent, mut at_once) = (Vec::new(), Instant::now(), 1);
+        loop {
+            let (first, begun) = (self.next.fetch_add(at_once, Ordering::Relaxed), Instant::now());
+            for index in first..self.end.min(first + at_once) {
+                if self.is_ended.load(Ordering::Relaxed) {
+                    return;
+                }
+                results.push((index, made(index)));
+                if results.len() == MOST_KEPT || sent.elapsed() > INTERVAL {
+                    // Nobody receives once the work was ended.
+                    let _ = sender.send(std::mem::take(&mut results));
+                    sent = Instant::now();
+                }
+            }
+            if first + at_once >= self.end {
+                let _ = sender.send(results);
+                return;
+            }
+            at_once = if begun.elapsed() < SHORT { (2 * at_once).min(MOST_AT_ONCE) } else { 1 };
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pool(threads: usize) -> ThreadPool {
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool")
+    }
+
+    fn run(milliseconds: u64) {
+        std::thread::sleep(Duration::from_millis(milliseconds));
+    }
+
+    #[test]
+    fn results_come_in_order_whatever_they_cost() {
+        for threads in [1, 2, 5] {
+            let mut found = Vec::new();
+            let worker = || {
+                |index: usize| {
+                    run(if index % 7 == 3 { 2 } else { 0 });
+                    index
+                }
+            };
+            in_order(&pool(threads), 10..400, worker, |more| {
+                found.extend(more);
+                ControlFlow::Continue(())
+            });
+            assert_eq!(found, (10..400).collect::<Vec<_>>(), "{threads} threads");
+        }
+        in_order(&pool(1), 3..3, || |_| (), |_| panic!("there is no index"));
+    }
+
+    #[test]
+    fn a_range_of_several_parts_is_whole() {
+        let mut count = 0;
+        in_order(
+            &pool(2),
+            0..2 * PART + 5,
+            || |index| index,
+            |more| {
+                assert!(more.iter().enumerate().all(|(place, index)| *index == count + place));
+                count += more.len();
+                ControlFlow::Continue(())
+            },
+        );
+        assert_eq!(count, 2 * PART + 5);
+    }
+
+    /// Runs of 20 ms after a thousand that cost nothing: a batch of a thousand would hold its results for 10 s.
+    #[test]
+    fn finished_results_do_not_wait_for_later_ones() {
+        let begun = Instant::now();
+        let worker = || {
+            |index: usize| {
+                run(if index < 1000 { 0 } else { 20 });
+                (index, begun.elapsed())
+            }
+        };
+        let (mut next, mut latest) = (0, Duration::ZERO);
+        in_order(&pool(2), 0..1040, worker, |more| {
+            // A result is late by the time since it and all before it were made.
+            for (index, made) in more {
+                assert_eq!(index, next);
+                next += 1;
+                latest = latest.max(made);
+                let late = begun.elapsed() - latest;
+                assert!(late < Duration::from_millis(1500), "result {index} came after {late:?}");
+            }
+            ControlFlow::Continue(())
+        });
+        assert_eq!(next, 1040);
+    }
+
+    #[test]
+    fn no_result_is_begun_after_the_end() {
+        let (begun, ended) = (AtomicUsize::new(0), AtomicBool::new(false));
+        let worker = || {
+            |_| {
+                begun.fetch_add(1, Ordering::Relaxed);
+                run(5);
+            }
+        };
+        in_order(&pool(2), 0..100_000, worker, |_| {
+            ended.store(true, Ordering::Relaxed);
+            ControlFlow::Break(())
+        });
+        assert!(ended.load(Ordering::Relaxed) && begun.load(Ordering::Relaxed) < 1000);
+    }
+}
