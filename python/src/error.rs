@@ -1,10 +1,12 @@
 //! Errors of the library as exceptions of the package (`python/rocking/_errors.py`), with the same text.
 
+use pyo3::exceptions::{PyFileNotFoundError, PyOSError, PyPermissionError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use rocking::run_folder::FolderError;
 use rocking::studies::IdaError;
 use rocking::{RecordError, SceneErrors, SceneFileError, SolveError};
+use std::io::ErrorKind;
 use std::path::Path;
 
 /// An exception of this class with these arguments. If it cannot be constructed, the exception is that failure.
@@ -13,7 +15,7 @@ fn exception<'py>(py: Python<'py>, class: &str, arguments: impl pyo3::call::PyCa
     made.map_or_else(|failure| failure, PyErr::from_value)
 }
 
-/// `SceneError(message, file, line, key, problem, remedy, record, faults)`.
+/// `SceneError(message, file, line, key, problem, remedy, record, faults)`; `MissingFileError` of the same arguments for a file that is not there.
 pub fn scene(py: Python<'_>, error: &SceneFileError) -> PyErr {
     let text = error.to_string();
     let shown = |path: &Path| path.display().to_string();
@@ -33,7 +35,8 @@ pub fn scene(py: Python<'_>, error: &SceneFileError) -> PyErr {
             }
         }
         SceneFileError::Unreadable { file, problem } => {
-            exception(py, "SceneError", (text, shown(file), 0, "", problem))
+            let class = if file.exists() { "SceneError" } else { "MissingFileError" };
+            exception(py, class, (text, shown(file), 0, "", problem))
         }
         _ => exception(py, "SceneError", (text,)),
     }
@@ -88,6 +91,16 @@ pub fn solve(py: Python<'_>, error: &SolveError) -> PyErr {
 pub fn record(py: Python<'_>, file: &str, error: &RecordError) -> PyErr {
     let text = if file.is_empty() { error.to_string() } else { format!("{file}: {error}") };
     exception(py, "RecordError", (text, file))
+}
+
+/// A file that the system does not give.
+pub fn unreadable(file: &str, failure: &std::io::Error) -> PyErr {
+    match failure.kind() {
+        // The numbers are ENOENT and EACCES on every system.
+        ErrorKind::NotFound => PyFileNotFoundError::new_err((2, failure.to_string(), file.to_string())),
+        ErrorKind::PermissionDenied => PyPermissionError::new_err((13, failure.to_string(), file.to_string())),
+        _ => PyOSError::new_err(format!("{file}: {failure}")),
+    }
 }
 
 /// `StudyError(message)`.

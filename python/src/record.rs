@@ -64,9 +64,7 @@ impl Record {
         above_zero("gravity", gravity)?;
         let options = TextOptions { gravity, dt, units, lenient, channel, skip_rows, column };
         let name = file.to_string_lossy().into_owned();
-        let bytes = py
-            .detach(|| read_file(&file))
-            .map_err(|failure| pyo3::exceptions::PyOSError::new_err(format!("{name}: {failure}")))?;
+        let bytes = py.detach(|| read_file(&file)).map_err(|failure| error::unreadable(&name, &failure))?;
         let record = py.detach(|| rocking::Record::from_bytes(&bytes, &options));
         record.map(|record| record.named(&name).into()).map_err(|refused| error::record(py, &name, &refused))
     }

@@ -216,7 +216,9 @@ pub struct Runs<'py> {
 }
 
 impl Runs<'_> {
-    fn observations(&self) -> PyResult<Vec<Observation>> {
+    /// # Errors
+    /// `StudyError` with the row, counted as by `table.iloc`.
+    fn observations(&self, py: Python<'_>) -> PyResult<Vec<Observation>> {
         let (peaks, slides) = (self.peaks.as_array(), self.slides.as_array());
         let runs = self.records.len();
         let lengths = [self.levels.len(), self.outcomes.len(), peaks.nrows(), slides.nrows()];
@@ -224,7 +226,11 @@ impl Runs<'_> {
         if lengths.into_iter().chain(optional.into_iter().flatten()).any(|length| length != runs) {
             return Err(PyValueError::new_err("columns of a study must be equally long"));
         }
-        (0..runs).map(|run| self.observation(run, peaks.row(run), slides.row(run))).collect()
+        let observation = |run| {
+            let found = self.observation(run, peaks.row(run), slides.row(run));
+            found.map_err(|problem| error::of_study(py, &format!("table.iloc[{run}]: {problem}")))
+        };
+        (0..runs).map(observation).collect()
     }
 
     fn observation(
@@ -232,19 +238,18 @@ impl Runs<'_> {
         run: usize,
         peaks: ArrayView1<'_, f64>,
         slides: ArrayView1<'_, f64>,
-    ) -> PyResult<Observation> {
+    ) -> Result<Observation, String> {
         let level = self.levels[run];
         if !(level.is_finite() && level > 0.0) {
-            return Err(PyValueError::new_err(format!("row {run}: the level {level} is not a number above zero")));
+            return Err(format!("the level {level} is not a number above zero"));
         }
         // Columns of blocks that this run's column does not have are blank, at the end.
-        let numbers = |row: ArrayView1<'_, f64>| -> PyResult<Vec<f64>> {
+        let numbers = |row: ArrayView1<'_, f64>| {
             let filled = row.iter().rposition(|number| !number.is_nan()).map_or(0, |last| last + 1);
             match row.iter().take(filled).position(|number| number.is_nan()) {
-                Some(blank) => Err(PyValueError::new_err(format!(
-                    "row {run}: the number of block or interface {} is blank, and later ones are not",
-                    blank + 1
-                ))),
+                Some(blank) => {
+                    Err(format!("the number of block or interface {} is blank, and later ones are not", blank + 1))
+                }
                 None => Ok(row.iter().take(filled).copied().collect()),
             }
         };
@@ -257,7 +262,7 @@ impl Runs<'_> {
             peaks: numbers(peaks)?,
             residual_slides: numbers(slides)?,
         };
-        Observation::try_from(cells).map_err(|refused| PyValueError::new_err(format!("row {run}: {refused}")))
+        Observation::try_from(cells).map_err(|refused| refused.to_string())
     }
 }
 
@@ -279,7 +284,7 @@ pub fn fragility(
     seed: u64,
     layout: Option<&str>,
 ) -> PyResult<(String, Vec<String>)> {
-    let runs = runs.observations()?;
+    let runs = runs.observations(py)?;
     let state: LimitState =
         state.parse().map_err(|refused| error::of_study(py, &format!("there is no state `{state}`; {refused}")))?;
     if !(confidence > 0.0 && confidence < 1.0) {
@@ -313,7 +318,7 @@ pub fn probability(median: f64, dispersion: f64, levels: Vec<f64>) -> Vec<f64> {
 /// Stripes of the runs of a table, as columns.
 #[pyfunction]
 pub fn stripes<'py>(py: Python<'py>, runs: Runs<'py>) -> PyResult<Bound<'py, PyDict>> {
-    let stripes = studies::stripes(&runs.observations()?);
+    let stripes = studies::stripes(&runs.observations(py)?);
     let columns = PyDict::new(py);
     columns.set_item("level", stripes.iter().map(|stripe| stripe.level).collect::<Vec<_>>())?;
     columns.set_item("runs", stripes.iter().map(|stripe| stripe.runs).collect::<Vec<_>>())?;

@@ -73,6 +73,10 @@ def test_bad_records_are_refused(tmp_path: Path, record: rk.Record) -> None:
         rk.Record(np.ma.array([1.0, 2.0, 3.0], mask=[0, 1, 0]), dt=0.1)
     with pytest.raises(ValueError, match="complex"):
         rk.Record(np.array([1.0j, 2.0]), dt=0.1)
+    for arguments, message in (((None, 0.01), "accel is of NoneType"), (("a.AT2", 0.01), "accel is of str"), (([0, 1], None), "dt is of NoneType"), (([0, 1], "0.01 s"), "dt is of str")):
+        with pytest.raises(TypeError, match=message):
+            rk.Record(*arguments)
+    assert rk.Record([0, 1], np.float32(0.5)).dt == 0.5
     (tmp_path / "bad.txt").write_text("0.1\nnonsense\n")
     with pytest.raises(rk.RecordError) as caught:
         rk.Record.read(tmp_path / "bad.txt", dt=0.01, units="g")
@@ -106,5 +110,10 @@ def test_a_folder_is_read_by_components(tmp_path: Path) -> None:
     with pytest.raises(rk.SceneError) as caught:
         rk.records(tmp_path / "empty")
     assert caught.value.key == "records.folder"
+    (tmp_path / "bad").mkdir()
+    (tmp_path / "bad" / "bad.txt").write_text("1.0\n2.0\n")
+    with pytest.raises(rk.SceneError, match="read the others one by one with Record.read") as caught:
+        rk.records(tmp_path / "bad")
+    assert caught.value.file == str(tmp_path / "bad") and "<records>" not in str(caught.value) and "`files`" not in str(caught.value)
     with pytest.raises(ValueError, match="there twice"):
         rk.Records([made.named("a"), made.named("a")])

@@ -183,6 +183,10 @@ def test_tables_pictures_and_pages(scenes: Path, tmp_path: Path) -> None:
     assert empty._repr_svg_() is None and "rocks" in empty._repr_html_()
     with pytest.raises(ValueError, match="rows=True"):
         empty.plot()
+    for time in (0.0, 0.5):
+        above, below = rk.simulate(run.scene, t_eval=[time]).plot()
+        low, high = below.get_xlim()
+        assert low <= time < high and all(line.get_marker() == "." for line in below.lines[:3])
 
 
 def test_the_page_is_that_of_the_command_line(scenes: Path, command, tmp_path: Path) -> None:

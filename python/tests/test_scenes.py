@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import errno
 import pickle
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 import rocking as rk
 from rocking._scene import ARGUMENTS
@@ -192,3 +195,61 @@ def test_a_record_stands_beside_no_station() -> None:
     with pytest.raises(rk.SceneError, match="`station` is given as well") as caught:
         rk.Scene(COLUMN, rk.Record.synthetic(1), keys={"excitation.station": {"record": "records/RSN1"}})
     assert caught.value.key == "excitation.horizontal"
+
+
+def test_what_stands_in_the_wrong_place_is_told() -> None:
+    motion, table = rk.pulse("ricker", amplitude=2.0, omega=5.0), pd.DataFrame({"width": [1.0], "height": [2.0]})
+    record = rk.StudyRecord("a", rk.Record.synthetic(1))
+    refused: list[tuple[Any, str]] = [
+        (lambda: rk.simulate(COLUMN, record), "horizontal motion is of StudyRecord; give one of its components, as `record.horizontal`"),
+        (lambda: rk.simulate(COLUMN, vertical=record), "vertical motion is of StudyRecord"),
+        (lambda: rk.Scene(COLUMN).replace(horizontal=record), "horizontal motion is of StudyRecord"),
+        (lambda: rk.total(motion, record), "motion 2 of the sum is of StudyRecord"),
+        (lambda: rk.simulate(COLUMN, horizontal=motion), "no argument `horizontal`; give the horizontal motion as `motion`"),
+        (lambda: rk.simulate(COLUMN, np.zeros(10)), r"is of ndarray; make a record of accelerations with Record\(accelerations, dt=0.01\)"),
+        (lambda: rk.simulate(COLUMN, "a.AT2"), r"is of str; read the record with Record.read\('a.AT2'\)"),
+        (lambda: rk.simulate(motion, COLUMN), "the column is of Motion; give the column first, then the motion"),
+        (lambda: rk.simulate("a.toml"), r"the column is of str; read a scene with Scene.load\('a.toml'\)"),
+        (lambda: rk.Column(rk.Block(width=1.0, height=2.0)), "the column is of Block; give a list of Block, base first"),
+        (lambda: rk.Column(table), "the column is of DataFrame; give a list of Block"),
+        (lambda: rk.Column([1.0]), "block 1 is of float; give a Block"),
+        (lambda: rk.simulate(COLUMN, rows=1), "rows is of int; give True or False"),
+        (lambda: rk.Scene(COLUMN, keys={5: 1}), "the name 5 in keys is of int; give dotted names"),
+    ]
+    for call, message in refused:
+        with pytest.raises(TypeError, match=message):
+            call()
+    assert len(rk.Column(table.to_dict("records"))) == 1
+
+
+def test_sizes_that_are_no_numbers_are_named() -> None:
+    for sizes in ({"width": "0.8 m", "height": 5.0}, {"half_width": "0.4 m", "height": 5.0}):
+        with pytest.raises(rk.SceneError, match="key `column.half_width`: text stands here; give a number"):
+            rk.Column.drums(3, **sizes)
+
+
+def test_a_file_that_is_not_there_is_a_file_not_found(tmp_path: Path) -> None:
+    missing = tmp_path / "none.toml"
+    for load in (rk.Scene.load, rk.Sweep.load, rk.Study.load, rk.records):
+        with pytest.raises(FileNotFoundError, match="check the path") as caught:
+            load(missing)
+        error = pickle.loads(pickle.dumps(caught.value))
+        assert isinstance(error, rk.SceneError) and error.errno == errno.ENOENT and error.filename == error.file == str(missing)
+    with pytest.raises(FileNotFoundError, match="check the path") as read:
+        rk.Record.read(missing)
+    assert read.value.errno == errno.ENOENT and read.value.filename == str(missing)
+    with pytest.raises(rk.SceneError) as folder:
+        rk.Scene.load(tmp_path)
+    assert not isinstance(folder.value, FileNotFoundError)
+
+
+def test_rows_that_are_not_wanted_are_not_too_many() -> None:
+    motion = rk.pulse("ricker", amplitude=2.0, omega=5.0)
+    assert len(rk.simulate(COLUMN, motion, t_end=1e5, rows=False).t) == 0
+    assert len(rk.simulate(rk.Scene(COLUMN, motion), t_end=1e5, rows=False).t) == 0
+    blocks = (rk.Block(width=0.4, height=2.0) for _ in range(2))
+    assert rk.simulate(blocks, motion, t_end=1e5, rows=False).peak_theta.shape == (2,)
+    with pytest.raises(rk.SceneError, match="too many for the memory"):
+        rk.simulate(COLUMN, motion, t_end=1e5)
+    with pytest.raises(rk.SceneError, match="rtol"):
+        rk.simulate(COLUMN, motion, rtol=2.0, rows=False)

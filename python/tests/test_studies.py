@@ -316,7 +316,7 @@ def test_columns_of_blocks_go_by_their_numbers():
     with pytest.raises(rk.StudyError, match="from 1"):
         rk.Study(table.drop(columns="peak_1")).fragility("overturned", replicates=0)
     table.loc[3, "peak_1"] = np.nan
-    with pytest.raises(ValueError, match="row 3"):
+    with pytest.raises(ValueError, match=r"table.iloc\[3\]"):
         rk.Study(table).fragility("overturned", replicates=0)
 
 
@@ -360,9 +360,9 @@ def test_words_that_a_table_of_runs_has_not_are_refused():
     assert rk.Study(table).fragility(replicates=0).counts.undecided.tolist() == [0, 0]
     table.loc[[1, 3], "trust"] = ["not-determined", None]
     assert rk.Study(table).fragility(replicates=0).counts.undecided.tolist() == [0, 1]
-    with pytest.raises(ValueError, match="row 0: column `trust`: `True` is neither determined nor not-determined"):
+    with pytest.raises(ValueError, match=r"table.iloc\[0\]: column `trust`: `True` is neither determined nor not-determined"):
         rk.Study(table.assign(trust=True)).fragility(replicates=0)
-    with pytest.raises(ValueError, match="row 0: column `outcome`: `fell` is no outcome"):
+    with pytest.raises(rk.StudyError, match=r"table.iloc\[0\]: column `outcome`: `fell` is no outcome"):
         rk.Study(table.assign(outcome="fell")).fragility(replicates=0)
 
 
@@ -409,7 +409,7 @@ def test_runs_stand_once_and_have_outcomes() -> None:
     # The same numbers of other records are other runs.
     pooled = pd.concat([table, table.assign(record=table.record.astype(str) + "'")])
     assert len(rk.Study(pooled).stripes) == 2
-    with pytest.raises(rk.StudyError, match="row 3 has no outcome; give the table as it was made"):
+    with pytest.raises(rk.StudyError, match=r"table.iloc\[2\] has no outcome; give the table as it was made"):
         rk.Study(table.assign(outcome=table.outcome.astype(object).where(table.index != 2)))
     with pytest.raises(ValueError, match=r"3 replicate\(s\) have no bands of 90 %; give 0 for no bands, or at least 20"):
         rk.Study(table).fragility(replicates=3)
@@ -432,3 +432,40 @@ def test_values_of_other_types_are_named() -> None:
         with pytest.raises(TypeError, match=message):
             call()
     assert dict(record + rk.pulse("sine-pulse", amplitude=1.0, omega=5.0))["kind"] == "sum"
+
+
+def test_the_run_of_a_study_is_a_run(tmp_path: Path) -> None:
+    """It was the response of the compiled module, without scene, figures and pickle."""
+    ida = rk.Ida(COLUMN, rk.synthetic(range(2), duration=6.0), "pgv", [0.1, 0.4], eta=0.9, trust=False)
+    run, row = ida.simulate(3), ida.table(3).iloc[0]
+    assert isinstance(run, rk.Run) and (run.outcome, run.impacts) == (row.outcome, row.impacts) and len(run.to_pandas()) > 100
+    assert pickle.loads(pickle.dumps(run)) == run and run.scene == ida.scene_of(3) != ida.scene_of(2)
+    assert rk.simulate(ida.scene_of(3)) == run and len(run.plot()) == 2
+    run.report(tmp_path / "run.html")
+    for use in (lambda: run.scene.toml, lambda: run.scene.replace(rtol=1e-8)):
+        with pytest.raises(ValueError, match="run of a study has no keys"):
+            use()
+
+
+def test_whole_numbers_are_named_with_their_range() -> None:
+    """They were `OverflowError: can't convert negative int to unsigned`."""
+    ida = rk.Ida(COLUMN, rk.synthetic(range(2), duration=6.0), "pgv", [0.1, 0.4], trust=False)
+    study, sweep = ida.run(), rk.Sweep(SCENE, {"eta": [0.9]})
+    refused: list[tuple[Any, str]] = [
+        (lambda: ida.run(threads=-1), "threads = -1"),
+        (lambda: ida.table(-1), "start = -1"),
+        (lambda: ida.to_arrow(0, -2), "stop = -2"),
+        (lambda: ida.simulate(-1), "index = -1"),
+        (lambda: sweep.scene(-1), "index = -1"),
+        (lambda: sweep.table(threads=-1), "threads = -1"),
+        (lambda: study.fragility(replicates=-1), "replicates = -1"),
+        (lambda: study.fragility(seed=-1), "seed = -1"),
+        (lambda: rk.synthetic([-1]), "seed = -1"),
+        (lambda: rk.Record.read("none", skip_rows=-1), "skip_rows = -1"),
+    ]
+    for call, message in refused:
+        with pytest.raises(ValueError, match=f"{message} is out of range; give a whole number from 0 on"):
+            call()
+    with pytest.raises(TypeError, match="threads is of float; give a whole number"):
+        sweep.table(threads=1.5)  # type: ignore[arg-type]
+    assert rk.Record.synthetic(2**64 - 1) == rk.Record.synthetic(np.uint64(2**64 - 1))

@@ -29,6 +29,13 @@ rk.simulate(column, eat=0.9)  # E: not an argument
 rk.Scene(column, t_end="ten")  # E: not a number
 rk.simulate(column, t_eval=[0.0, 0.5])
 rk.simulate(column, t_eval=0.5)  # E: not a list
+rk.simulate(column, t_eval=pd.Series([0.0, 0.5]), theta=np.zeros(5, dtype=np.float32))
+rk.simulate(run.scene, friction=None).scene.replace(friction=None, eta=None, keys=None)
+rk.Column.prisms(2, width=0.8, height=3.0, gravity=3.7, depth=1.0)
+rk.Column.drums(3, half_widht=0.4, height=5.0)  # E: misspelt
+rk.Column.cut(3, half_width=0.4, heigth=5.0)  # E: misspelt
+rk.Block(half_width=0.4, heigth=5.0)  # E: misspelt
+assert_type(rk.Ida(column, rk.synthetic(range(2)), "PGV", [0.1]).simulate(0), rk.Run)
 rk.sweep(run.scene, {"eta": [0.9]}, table="polars")  # E: neither pandas nor pyarrow
 """
 

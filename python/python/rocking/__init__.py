@@ -9,7 +9,7 @@
 Lengths are in m, masses in kg, times in s, angles in rad. Arguments have the names and units of the keys of scene files. Blocks and interfaces are base first.
 """
 
-from ._errors import FolderError, RecordError, RockingError, SceneError, SolveError, StudyError
+from ._errors import FolderError, MissingFileError, RecordError, RockingError, SceneError, SolveError, StudyError
 from ._motion import Motion, pulse, total
 from ._record import Record, Records, StudyRecord, records, synthetic
 from ._rocking import MAX_BLOCKS, MEASURES, __version__
@@ -27,6 +27,7 @@ __all__ = [
     "Ida",
     "MAX_BLOCKS",
     "MEASURES",
+    "MissingFileError",
     "Motion",
     "Record",
     "RecordError",

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import errno
+from typing import Any
+
 
 class RockingError(Exception):
     """Base of all errors of the package."""
@@ -49,6 +52,14 @@ class SceneError(RockingError, ValueError):
         self.remedy: str = first.remedy if first else remedy
         self.record: str = record
         self.faults: tuple[SceneError, ...] = faults or (self,)
+
+
+class MissingFileError(SceneError, FileNotFoundError):
+    """A file of a scene, a sweep or a study, or a folder of records, is not there. ``filename`` is its path, as is ``file``."""
+
+    def __init__(self, message: str, file: str = "", *details: Any) -> None:
+        super().__init__(message, file, *details)
+        self.errno, self.strerror, self.filename = errno.ENOENT, message, file
 
 
 class RecordError(RockingError, ValueError):

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Mapping
 from typing import Any, Union
 
 from ._keys import copied
-from ._record import Record
+from ._record import Record, StudyRecord
 
 #: What shakes in one direction: a pulse, a record, or the keys of a component as a mapping.
 MotionLike = Union["Motion", Record, Mapping[str, Any]]
@@ -95,6 +96,23 @@ def pulse(
     )
 
 
+def checked(name: str, motion: Any) -> Any:
+    """What shakes in one direction; another thing is refused, with what to make of it."""
+    if isinstance(motion, (Record, Mapping)):
+        return motion
+    if isinstance(motion, StudyRecord):
+        remedy = "give one of its components, as `record.horizontal`"
+    elif isinstance(motion, (str, os.PathLike)):
+        remedy = f"read the record with Record.read({os.fspath(motion)!r})"
+    elif isinstance(motion, (list, tuple)) or hasattr(motion, "__array__"):
+        remedy = "make a record of accelerations with Record(accelerations, dt=0.01)"
+    else:
+        remedy = "give a motion, as of pulse(..) or Record.read(..), or the keys of one"
+    raise TypeError(f"{name} is of {type(motion).__name__}; {remedy}")
+
+
 def total(*terms: MotionLike) -> Motion:
     """The sum of several motions."""
+    for number, term in enumerate(terms, start=1):
+        checked(f"motion {number} of the sum", term)
     return Motion(kind="sum", term=[dict(term) if isinstance(term, Mapping) else term for term in terms])

@@ -30,20 +30,23 @@ def run(drawn: "Run", axes: Any = None) -> "npt.NDArray[Any]":
     if axes is None:
         axes = plt.subplots(2, 1, sharex=True, figsize=(8, 5), height_ratios=[1, 2.5], layout="constrained")[1]
     above, below = axes
+    # A single row is a point.
+    marker = "." if len(drawn.t) == 1 else None
     for column, name in enumerate(("horizontal", "vertical")):
         if np.any(drawn.ground[:, column]):
-            above.plot(drawn.t, drawn.ground[:, column], lw=0.8, label=name)
+            above.plot(drawn.t, drawn.ground[:, column], lw=0.8, marker=marker, label=name)
     above.set(ylabel="ground [m/s²]")
     if len(above.lines) > 1:
         above.legend(frameon=False)
     shares = drawn.theta / drawn.alpha
     for block in range(shares.shape[1]):
-        below.plot(drawn.t, shares[:, block], lw=1, label=f"block {block + 1}")
+        below.plot(drawn.t, shares[:, block], lw=1, marker=marker, label=f"block {block + 1}")
     times = drawn.events["t"][drawn.events["kind"].isin(["impact", "landing"])]
     below.plot(times, np.full(len(times), 0.02), "|", color="0.5", ms=6, transform=below.get_xaxis_transform(), label="impacts")
     low, high = max(shares.min(), -DRAWN), min(shares.max(), DRAWN)
     room = 0.08 * (high - low or 1.0)
-    below.set(xlabel="t [s]", ylabel="θ / α", ylim=(low - 2 * room, high + room), xlim=(drawn.t[0], drawn.t[-1] or 1.0))
+    below.set(xlabel="t [s]", ylabel="θ / α", ylim=(low - 2 * room, high + room))
+    below.set(xlim=(drawn.t[0], drawn.t[-1]) if marker is None else (0.0, drawn.t_final or 1.0))
     below.legend(frameon=False, ncols=min(shares.shape[1] + 1, 6), loc="upper right", fontsize="small")
     above.set_title(drawn.scene.title or f"{drawn._lead}{drawn.outcome}, {drawn.impacts} impact(s)", fontsize="medium")
     return np.array([above, below])

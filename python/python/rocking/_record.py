@@ -10,6 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _rocking
+from ._arguments import number, whole
+from ._errors import MissingFileError, SceneError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -42,6 +44,8 @@ class Record:
     """
 
     def __init__(self, accel: npt.ArrayLike, dt: float, *, start: float = 0.0, name: str = "") -> None:
+        if accel is None or isinstance(accel, (str, os.PathLike)):
+            raise TypeError(f"accel is of {type(accel).__name__}; give accelerations [m/s²], or read a file with Record.read")
         if np.ma.is_masked(accel):
             raise ValueError("accel has masked samples; fill them, or cut the record there")
         if np.iscomplexobj(accel):
@@ -51,7 +55,7 @@ class Record:
         samples = np.ascontiguousarray(accel, dtype=np.float64)
         if samples.ndim != 1:
             raise ValueError(f"accel has the shape {samples.shape}; give one acceleration per sample")
-        self._record = _rocking.Record(samples, float(dt), float(start), name)
+        self._record = _rocking.Record(samples, number("dt", dt), number("start", start), name)
 
     @classmethod
     def _of(cls, record: _rocking.Record) -> "Record":
@@ -79,9 +83,10 @@ class Record:
         RecordError
             With the place in the file and the remedy.
         OSError
-            For a file that cannot be opened.
+            For a file that cannot be opened; ``FileNotFoundError`` where there is none.
         """
         name = None if column is None else str(column)
+        channel, skip_rows = None if channel is None else whole("channel", channel), whole("skip_rows", skip_rows)
         return cls._of(_rocking.Record.read(os.fspath(file), gravity, dt, units, lenient, channel, skip_rows, name))
 
     @classmethod
@@ -96,7 +101,7 @@ class Record:
         pga: float = 3.0,
     ) -> "Record":
         """Filtered noise, the same for the same seed on every machine; units s, s, Hz, dimensionless, m/s²."""
-        return cls._of(_rocking.Record.synthetic(seed, duration, dt, frequency, damping, pga))
+        return cls._of(_rocking.Record.synthetic(whole("seed", seed), duration, dt, frequency, damping, pga))
 
     def scaled(
         self,
@@ -323,10 +328,15 @@ def records(
     Raises
     ------
     SceneError
-        For a folder without records, a record without the component, a file that cannot be read.
+        For a folder without records, a record without the component, a file that cannot be read; ``MissingFileError`` where there is no folder.
     """
+    path = os.path.abspath(folder)
+    if not os.path.isdir(path):
+        if os.path.exists(path):
+            raise SceneError(f"{path}: this is no folder; give one of record files", path, key="records.folder", problem="this is no folder")
+        raise MissingFileError(f"{path}: there is no such folder; check the path", path)
     keys: dict[str, Any] = {
-        "folder": os.path.abspath(folder),
+        "folder": path,
         "component": component,
         "vertical": vertical,
         "units": units,
@@ -338,7 +348,12 @@ def records(
     }
     # The reader of studies finds components; any column and any level do.
     study = {"measure": "pga", "levels": [1.0], "records": keys, "scene": {"block": [{"half_width": 0.1, "half_height": 1.0}]}}
-    found = _rocking.Ida.from_toml(_rocking.to_toml(study), "<records>").records
+    try:
+        found = _rocking.Ida.from_toml(_rocking.to_toml(study), "<records>").records
+    except SceneError as refused:
+        # There is no file of a study, whose line could be named, and no argument `files`.
+        problem, remedy = refused.problem, refused.remedy.replace("name the records with `files`", "read the others one by one with Record.read")
+        raise SceneError(f"{path}: {problem}; {remedy}", path, 0, refused.key, problem, remedy, refused.record) from None
     return Records(StudyRecord._of(record) for record in found)
 
 

@@ -13,47 +13,47 @@ import pandas as pd
 
 from . import _rocking
 from ._keys import copied
-from ._motion import Motion, MotionLike
-from ._record import Array, Record
+from ._motion import Motion, MotionLike, checked
+from ._record import Array, Record, StudyRecord
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 #: Name in errors of a scene that has no file.
 WITHOUT_FILE = "<scene>"
-#: File of the scene of a point of a sweep.
-WITHOUT_KEYS = "<point of a sweep>"
+#: Files of scenes that have no keys of their own.
+POINT, RUN = "<point of a sweep>", "<run of a study>"
 
-Numbers = Union[Sequence[float], npt.NDArray[np.float64]]
+Numbers = Union[Sequence[float], npt.NDArray[Any], "pd.Series[Any]"]
 
 
 class SceneKeys(TypedDict, total=False):
-    """Keys of a scene file other than column and ground motion, under the names of arguments."""
+    """Keys of a scene file other than column and ground motion, under the names of arguments; None leaves one out."""
 
-    title: str
-    gravity: float
-    friction: float | Mapping[str, Any]
-    law: str
-    eta: float
-    factors: Numbers
-    theta: Numbers
-    omega: Numbers
-    slide: Numbers
-    x: Numbers
-    y: Numbers
-    vx: Numbers
-    vy: Numbers
-    t_end: float
-    method: str
-    rtol: float
-    atol: float
-    step: float
-    stick_angle: float
-    overturn_angle: float
-    output_dt: float
-    t_eval: Numbers
-    output_columns: Sequence[str]
-    keys: Mapping[str, Any]
+    title: str | None
+    gravity: float | None
+    friction: float | Mapping[str, Any] | None
+    law: str | None
+    eta: float | None
+    factors: Numbers | None
+    theta: Numbers | None
+    omega: Numbers | None
+    slide: Numbers | None
+    x: Numbers | None
+    y: Numbers | None
+    vx: Numbers | None
+    vy: Numbers | None
+    t_end: float | None
+    method: str | None
+    rtol: float | None
+    atol: float | None
+    step: float | None
+    stick_angle: float | None
+    overturn_angle: float | None
+    output_dt: float | None
+    t_eval: Numbers | None
+    output_columns: Sequence[str] | None
+    keys: Mapping[str, Any] | None
 
 
 #: Where the arguments stand in a scene file.
@@ -71,46 +71,45 @@ ARGUMENTS: dict[str, str] = {
 ALTERNATIVES = ({"restitution.law", "restitution.eta", "restitution.factors"}, {"output.dt", "output.times"})
 
 
+class Sizes(TypedDict, total=False):
+    """Sizes and material of a block, or of a column: keys that both have in a scene file; m, kg, kg m²."""
+
+    name: str | None
+    half_width: float | None
+    width: float | None
+    diameter: float | None
+    bottom_half_width: float | None
+    bottom_width: float | None
+    bottom_diameter: float | None
+    top_half_width: float | None
+    top_width: float | None
+    top_diameter: float | None
+    half_height: float | None
+    height: float | None
+    depth: float | None
+    density: float | None
+    mass: float | None
+    centroid_height: float | None
+    inertia: float | None
+
+
 class Block(Mapping[str, Any]):
     """A block: the keys of a ``[[block]]`` of a scene file; lengths in m, mass in kg.
 
-    ``height`` and ``width`` may be given instead of their halves.
+    Parameters
+    ----------
+    shape : str
+        ``prism`` or ``drum``.
+    **sizes
+        ``half_width`` or ``width``, ``half_height`` or ``height``, ``density`` or ``mass``, ``depth``, ``top_half_width``, ``bottom_half_width``,
+        ``centroid_height``, ``inertia``, and the other keys of a block.
 
     >>> Block(half_width=0.4, height=1.6, density=2700)
     Block(half_width=0.4, half_height=0.8, density=2700)
     """
 
-    def __init__(
-        self,
-        *,
-        half_width: float | None = None,
-        half_height: float | None = None,
-        width: float | None = None,
-        height: float | None = None,
-        bottom_half_width: float | None = None,
-        top_half_width: float | None = None,
-        shape: str | None = None,
-        depth: float | None = None,
-        density: float | None = None,
-        mass: float | None = None,
-        centroid_height: float | None = None,
-        inertia: float | None = None,
-        **others: Any,
-    ) -> None:
-        keys: dict[str, Any] = {
-            "half_width": _half("width", half_width, width),
-            "bottom_half_width": bottom_half_width,
-            "top_half_width": top_half_width,
-            "half_height": _half("height", half_height, height),
-            "shape": shape,
-            "depth": depth,
-            "density": density,
-            "mass": mass,
-            "centroid_height": centroid_height,
-            "inertia": inertia,
-            **others,
-        }
-        self._keys = {key: copied(value) for key, value in keys.items() if value is not None}
+    def __init__(self, *, shape: str | None = None, **sizes: "Unpack[Sizes]") -> None:
+        self._keys = _halved({**sizes, "shape": shape})
 
     def __getitem__(self, key: str) -> Any:
         return self._keys[key]
@@ -125,10 +124,35 @@ class Block(Mapping[str, Any]):
         return f"Block({', '.join(f'{key}={value!r}' for key, value in self._keys.items())})"
 
 
-def _half(name: str, half: float | None, whole: float | None) -> float | None:
-    if half is not None and whole is not None:
-        raise TypeError(f"half_{name} and {name} are given; give one of them")
-    return whole / 2 if whole is not None else half
+def _halved(sizes: Mapping[str, Any]) -> dict[str, Any]:
+    """The keys that are given, width and height as their halves."""
+    keys: dict[str, Any] = {}
+    for key, value in sizes.items():
+        if key in ("width", "height") and value is not None:
+            if sizes.get(f"half_{key}") is not None:
+                raise TypeError(f"half_{key} and {key} are given; give one of them")
+            # The reader refuses text, and names the key.
+            key, value = f"half_{key}", value if isinstance(value, str) else value / 2
+        if value is not None:
+            keys[key] = copied(value)
+    return keys
+
+
+def _blocks(blocks: Any) -> Iterable[Mapping[str, Any]]:
+    """Blocks, base first; another thing is refused, with what to make of it."""
+    kind = type(blocks).__name__
+    if isinstance(blocks, (Motion, Record, StudyRecord)):
+        raise TypeError(f"the column is of {kind}; give the column first, then the motion")
+    if isinstance(blocks, (str, os.PathLike)):
+        raise TypeError(f"the column is of {kind}; read a scene with Scene.load({os.fspath(blocks)!r})")
+    if isinstance(blocks, pd.DataFrame):
+        raise TypeError('the column is of DataFrame; give a list of Block, as table.to_dict("records")')
+    if isinstance(blocks, Mapping) or not isinstance(blocks, Iterable):
+        raise TypeError(f"the column is of {kind}; give a list of Block, base first")
+    for number, block in enumerate(blocks, start=1):
+        if not isinstance(block, Mapping):
+            raise TypeError(f"block {number} is of {type(block).__name__}; give a Block, as Block(width=0.8, height=3.2)")
+        yield block
 
 
 class Column:
@@ -147,7 +171,7 @@ class Column:
     """
 
     def __init__(self, blocks: Iterable[Mapping[str, Any]], *, gravity: float | None = None) -> None:
-        self._become({"block": [copied(block) for block in blocks]}, gravity)
+        self._become({"block": [copied(block) for block in _blocks(blocks)]}, gravity)
 
     def _become(self, keys: dict[str, Any], gravity: float | None) -> None:
         self._keys: dict[str, Any] = {**keys, **({} if gravity is None else {"gravity": gravity})}
@@ -160,47 +184,24 @@ class Column:
         return self._compiled
 
     @classmethod
-    def cut(
-        cls,
-        blocks: int,
-        *,
-        half_width: float | None = None,
-        half_height: float | None = None,
-        width: float | None = None,
-        height: float | None = None,
-        top_half_width: float | None = None,
-        shape: str | None = None,
-        depth: float | None = None,
-        density: float | None = None,
-        mass: float | None = None,
-        gravity: float | None = None,
-        **others: Any,
-    ) -> "Column":
-        """A column cut into blocks of equal height, with straight sides: ``[column]`` of a scene file. Height and mass are those of the whole column."""
-        keys: dict[str, Any] = {
-            "blocks": blocks,
-            "half_width": _half("width", half_width, width),
-            "top_half_width": top_half_width,
-            "half_height": _half("height", half_height, height),
-            "shape": shape,
-            "depth": depth,
-            "density": density,
-            "mass": mass,
-            **others,
-        }
+    def cut(cls, blocks: int, *, shape: str | None = None, gravity: float | None = None, **sizes: "Unpack[Sizes]") -> "Column":
+        """A column cut into blocks of equal height, with straight sides: ``[column]`` of a scene file. Height and mass are those of the whole column.
+
+        Sizes are those of :class:`Block`: ``half_width`` or ``width``, ``half_height`` or ``height``, ``top_half_width``, ``density`` or ``mass``, ...
+        """
         made = cls.__new__(cls)
-        made._become({"column": {key: copied(value) for key, value in keys.items() if value is not None}}, gravity)
+        made._become({"column": {"blocks": blocks, **_halved({**sizes, "shape": shape})}}, gravity)
         return made
 
     @classmethod
-    def drums(cls, blocks: int, **sizes: Any) -> "Column":
+    def drums(cls, blocks: int, *, gravity: float | None = None, **sizes: "Unpack[Sizes]") -> "Column":
         """Round drums: :meth:`cut` with ``shape="drum"``; half-widths are radii, a density is in kg/m³."""
-        return cls.cut(blocks, shape="drum", **sizes)
+        return cls.cut(blocks, shape="drum", gravity=gravity, **sizes)
 
     @classmethod
-    def prisms(cls, blocks: int, **sizes: Any) -> "Column":
+    def prisms(cls, blocks: int, *, gravity: float | None = None, **sizes: "Unpack[Sizes]") -> "Column":
         """Prisms: :meth:`cut` with ``shape="prism"``; a density is in kg/m³ with ``depth``, in kg/m² without."""
-        return cls.cut(blocks, shape="prism", **sizes)
+        return cls.cut(blocks, shape="prism", gravity=gravity, **sizes)
 
     @property
     def blocks(self) -> pd.DataFrame:
@@ -285,7 +286,8 @@ class Scene:
     ) -> None:
         column = column if isinstance(column, Column) else Column(column)
         keys = copied(column._keys)
-        motions = {name: motion for name, motion in (("horizontal", horizontal), ("vertical", vertical)) if motion is not None}
+        given = (("horizontal", horizontal), ("vertical", vertical))
+        motions = {name: checked(f"{name} motion", motion) for name, motion in given if motion is not None}
         if motions:
             keys["excitation"] = copied(motions)
         for key, value in _dotted(arguments):
@@ -350,7 +352,7 @@ class Scene:
             keys = {**{key: value for key, value in keys.items() if key not in ("column", "block")}, **copied(column._keys)}
         for name, motion in (("horizontal", horizontal), ("vertical", vertical)):
             if motion is not None:
-                _put(keys, f"excitation.{name}", copied(motion))
+                _put(keys, f"excitation.{name}", copied(checked(f"{name} motion", motion)))
         given = list(_dotted(arguments))
         # Those of the scene make room for those given; of two that are given the reader refuses one.
         for group in ALTERNATIVES:
@@ -364,8 +366,8 @@ class Scene:
     @property
     def keys(self) -> dict[str, Any]:
         """The keys as in a scene file; a copy."""
-        if self._file == WITHOUT_KEYS:
-            raise ValueError("the scene of a point of a sweep has no keys of its own; change the base scene, or the axes")
+        if self._file in (POINT, RUN):
+            raise ValueError(f"the scene of a {self._file[1:-1]} has no keys of its own; change those of the base scene")
         keys: dict[str, Any] = copied(self._keys)
         return keys
 
@@ -447,10 +449,13 @@ def _dotted(arguments: Mapping[str, Any]) -> Iterable[tuple[str, Any]]:
             known = ", ".join([*ARGUMENTS, "keys"])
             raise TypeError(f"there is no argument `{name}`; arguments are {known}")
         yield ARGUMENTS[name], value
-    others = arguments.get("keys", {})
+    others = {} if arguments.get("keys") is None else arguments["keys"]
     if not isinstance(others, Mapping):
         raise TypeError(f"keys are of {type(others).__name__}; give a dictionary of dotted names")
-    yield from others.items()
+    for key, value in others.items():
+        if not isinstance(key, str):
+            raise TypeError(f"the name {key!r} in keys is of {type(key).__name__}; give dotted names, such as \"solver.rtol\"")
+        yield key, value
 
 
 def _files(motion: Any) -> Iterable[str]:

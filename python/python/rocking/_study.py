@@ -15,10 +15,12 @@ import numpy.typing as npt
 import pandas as pd
 
 from . import _rocking
+from ._arguments import whole
 from ._errors import StudyError
 from ._frame import arrow, frame
 from ._record import Array, Record, Records, StudyRecord
-from ._scene import Column, Scene, SceneKeys
+from ._run import Run, simulate
+from ._scene import RUN, Column, Scene, SceneKeys
 
 if TYPE_CHECKING:
     import pyarrow
@@ -43,7 +45,7 @@ class Ida:
     sa_period, sa_damping : float
         Period [s] and damping ratio of ``sa`` and ``sa_g``.
     trust : bool
-        Whether companions tell of each run if its verdict is determined; the default. They take ten times as long as the runs.
+        Whether companions tell of each run if its verdict is determined; the default. They take 7 to 30 times as long as the runs.
     **arguments
         As of :class:`Scene`.
     """
@@ -102,19 +104,27 @@ class Ida:
 
     def table(self, start: int = 0, stop: int | None = None, *, threads: int = 0) -> pd.DataFrame:
         """Runs the runs from ``start`` to before ``stop``; a row each, with the columns of ``rocking ida``."""
-        return frame(self._ida.table(start, len(self) if stop is None else stop, threads), start)
+        return frame(self._rows(start, stop, threads), start)
 
     def to_arrow(self, start: int = 0, stop: int | None = None, *, threads: int = 0) -> "pyarrow.Table":
         """As :meth:`table`, as a table of Arrow, without pandas in between; blanks are null, and names are dictionaries. Needs ``pyarrow``."""
-        return arrow(self._ida.table(start, len(self) if stop is None else stop, threads))
+        return arrow(self._rows(start, stop, threads))
+
+    def _rows(self, start: int, stop: int | None, threads: int) -> list[tuple[Any, ...]]:
+        end = len(self) if stop is None else whole("stop", stop)
+        return self._ida.table(whole("start", start), end, whole("threads", threads))
 
     def run(self, *, threads: int = 0) -> "Study":
         """All runs."""
         return Study(self.table(threads=threads), self.measure)
 
-    def simulate(self, index: int) -> _rocking.Response:
-        """The response of a run, with rows and without forces."""
-        return self._ida.scene(index).run(rows=True, forces=False, wanted="everything", trust=False)
+    def scene_of(self, index: int) -> Scene:
+        """The scene of a run, with rows and without forces. It is run as it is: it has no keys, and nothing in it can be replaced."""
+        return Scene._of({}, RUN, self._ida.scene(whole("index", index)))
+
+    def simulate(self, index: int) -> Run:
+        """A run alone, with rows and without forces."""
+        return simulate(self.scene_of(index))
 
     def __repr__(self) -> str:
         return f"<Ida of {len(self.records)} record(s) at {len(self.levels)} level(s) of {self.measure}>"
@@ -203,7 +213,7 @@ class Study:
                 raise StudyError(f"run {again.iloc[0]} stands in the table twice; give each run once")
         blank = np.flatnonzero(table["outcome"].isna())
         if len(blank):
-            raise StudyError(f"row {blank[0] + 1} has no outcome; give the table as it was made, in which a run that failed has the outcome `error`")
+            raise StudyError(f"table.iloc[{blank[0]}] has no outcome; give the table as it was made, in which a run that failed has the outcome `error`")
         self.measure = measure
         self.states: list[str] = []
         self._options: dict[str, Any] = {}
@@ -212,7 +222,7 @@ class Study:
     def load(cls, file: str | os.PathLike[str], *, threads: int = 0) -> "Study":
         """Runs a study file of ``rocking ida``. Its ``[fragility]`` gives ``states`` and what :meth:`fragility` takes unless given."""
         native = _rocking.Ida.from_toml(_rocking.scene_text(os.fspath(file)), os.fspath(file))
-        study = cls(frame(native.table(0, len(native), threads)), native.measure)
+        study = cls(frame(native.table(0, len(native), whole("threads", threads))), native.measure)
         study.states, study._options = native.states, native.options
         return study
 
@@ -297,6 +307,7 @@ class Study:
             raise StudyError(f"the state `{state}` needs the columns residual_slide_1, ...: run the sweep of a scene with friction with ask = \"slides\"")
         given = {"replicates": replicates, "confidence": confidence, "seed": seed, "layout": layout}
         options = {**self._options, **{name: value for name, value in given.items() if value is not None}}
+        options.update({name: whole(name, options[name]) for name in ("replicates", "seed") if name in options})
         text, statements = _rocking.fragility(runs, state, **options)
         return Fragility(json.loads(text), statements, self.measure, self.label)
 

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 import pandas as pd
 
 from . import _rocking
+from ._arguments import whole
 from ._frame import arrow, frame
 from ._keys import copied
-from ._scene import WITHOUT_KEYS, Scene
+from ._scene import POINT, Scene
 
 if TYPE_CHECKING:
     import pyarrow
@@ -88,8 +89,7 @@ class Sweep:
 
     def scene(self, index: int) -> Scene:
         """The scene of a point, without rows and forces. It is run as it is: it has no keys, and nothing in it can be replaced."""
-        native = self._sweep.scene(index)
-        return Scene._of({}, WITHOUT_KEYS, native)
+        return Scene._of({}, POINT, self._sweep.scene(whole("index", index)))
 
     def table(self, start: int = 0, stop: int | None = None, *, threads: int = 0) -> pd.DataFrame:
         """Runs the points from ``start`` to before ``stop``; a row each, with the columns of ``rocking sweep``.
@@ -97,11 +97,15 @@ class Sweep:
         ``threads`` is the number of threads, 0 for as many as the machine has; rows do not depend on it. A point whose scene cannot be read or run is a row
         with ``outcome`` "error". Blank are ``NaN`` and ``NA``.
         """
-        return frame(self._sweep.table(start, len(self) if stop is None else stop, threads), start)
+        return frame(self._rows(start, stop, threads), start)
 
     def to_arrow(self, start: int = 0, stop: int | None = None, *, threads: int = 0) -> "pyarrow.Table":
         """As :meth:`table`, as a table of Arrow, without pandas in between; blanks are null, and names are dictionaries. Needs ``pyarrow``."""
-        return arrow(self._sweep.table(start, len(self) if stop is None else stop, threads))
+        return arrow(self._rows(start, stop, threads))
+
+    def _rows(self, start: int, stop: int | None, threads: int) -> list[tuple[Any, ...]]:
+        end = len(self) if stop is None else whole("stop", stop)
+        return self._sweep.table(whole("start", start), end, whole("threads", threads))
 
     def shard(self, number: int, count: int) -> range:
         """Indices of the ``number``-th (from 1) of ``count`` parts, as ``rocking sweep --shard``."""
