@@ -16,6 +16,6 @@ pub struct Decision {
     /// Lost share of the kinetic energy before, 0 to 1. Zero where rates do not jump or `ImpactLaw::is_recorded` is false.
     pub energy_lost: f64,
     /// Impulses at the interfaces on the stack above, base first `[N s]`, `[N m s]`: normal, tangential, moment about the
-    /// contact's centre, restitution included. Empty where rates do not jump or `ImpactLaw::is_recorded` is false.
+    /// contact's centre, restitution included, the end of low hops not. Empty where rates do not jump or `ImpactLaw::is_recorded` is false.
     pub impulses: PerBlock<ContactForce>,
 }

@@ -78,15 +78,18 @@ fn impact_at<S: Size>(
     let striking = closing.iter().copied().filter(is_striking);
     let rebound = rebounded(&mechanism, &plastic, striking, &free, law.kappa, energy_before);
     let mut rates = rebound.unwrap_or(plastic.angular);
+    // Impulses are those of the impact: the projection that ends a hop has others, whose ratio is that of the lengths of a block.
+    let impulses = law.is_recorded.then(|| {
+        let posture = &mechanism.posture;
+        let change = at_event.velocities(posture, &rates).less(&before);
+        posture.resultants(&change.linear, &change.angular)
+    });
     let forced = settle(at_event, &mut mechanism, &mut rates, &free, ground, law.stick_angle)?;
-    let (mut energy_lost, mut impulses) = (0.0, None);
+    let mut energy_lost = 0.0;
     if law.is_recorded {
         let posture = &mechanism.posture;
         let after = at_event.velocities(posture, &rates);
-        let energy_after = posture.kinetic_energy(&after.linear, &after.angular);
-        energy_lost = share_lost(energy_before, energy_after);
-        let change = after.less(&before);
-        impulses = Some(posture.resultants(&change.linear, &change.angular));
+        energy_lost = share_lost(energy_before, posture.kinetic_energy(&after.linear, &after.angular));
     }
 
     let free = at_event.size.list_of(may_choose(at_event, &mechanism.states, &rates));

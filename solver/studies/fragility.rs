@@ -509,19 +509,20 @@ impl Table {
         counts
     }
 
-    /// Names of the records that reach the state at a level and not at a higher one.
+    /// Names of the records that reach the state at a level and not at a higher one. Records with several runs at a level are those of several columns, say,
+    /// and none of them is named.
     fn resurrections(&self) -> Vec<String> {
-        let mut first = vec![usize::MAX; self.records.len()];
-        let mut last_without = vec![0; self.records.len()];
-        for (record, level, reached) in &self.runs {
-            match reached {
-                Some(true) => first[*record] = first[*record].min(*level),
-                Some(false) => last_without[*record] = last_without[*record].max(*level),
-                None => {}
-            }
-        }
-        let rises = (0..self.records.len()).filter(|record| first[*record] < last_without[*record]);
-        rises.map(|record| self.records[record].clone()).collect()
+        let mut levels: Vec<Vec<(usize, Option<bool>)>> = vec![Vec::new(); self.records.len()];
+        self.runs.iter().for_each(|(record, level, reached)| levels[*record].push((*level, *reached)));
+        let comes_back = |runs: &mut Vec<(usize, Option<bool>)>| {
+            runs.sort_by_key(|(level, _)| *level);
+            let has_several = runs.windows(2).any(|pair| pair[0].0 == pair[1].0);
+            let mut decided = runs.iter().filter_map(|(_, reached)| *reached).skip_while(|reached| !reached);
+            !has_several && decided.any(|reached| !reached)
+        };
+        let named =
+            levels.iter_mut().zip(&self.records).filter_map(|(runs, name)| comes_back(runs).then(|| name.clone()));
+        named.collect()
     }
 
     /// `None` once `progress` breaks.

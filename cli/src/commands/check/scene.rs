@@ -388,14 +388,19 @@ impl Findings {
             }
             (Some(motion), None) => {
                 let [pga, lowest] = [motion.pga, lowest].map(|acceleration| acceleration / gravity);
+                let weaker = if scene.column.slides().iter().any(|slide| *slide != 0.0) {
+                    " towards its weaker side"
+                } else {
+                    ""
+                };
                 match &*interfaces {
                     "" => writeln!(
                         text,
-                        "  {pga:.4} g opens no interface of the column at rest, which takes {lowest:.4} g"
+                        "  {pga:.4} g opens no interface of the column at rest, which takes {lowest:.4} g{weaker}"
                     ),
                     _ => writeln!(
                         text,
-                        "  {pga:.4} g is enough to open interface(s) {interfaces} of the column at rest; the first opens at {lowest:.4} g"
+                        "  {pga:.4} g is enough to open interface(s) {interfaces} of the column at rest; the first opens at {lowest:.4} g{weaker}"
                     ),
                 }
             }

@@ -45,23 +45,26 @@ impl Class {
     }
 }
 
-/// Legend entries: each class that occurs, with its share of all cells. Classes that overturn come last, the most violent first.
-/// The line `least` of the lowest value that overturns, if given, comes just before these classes. The first of them says "overturns".
-pub fn legend(panels: &[Vec<Class>], least: Option<Stroke>) -> Vec<(Key, String)> {
+/// Legend entries: each class that occurs, with its share of all cells. Classes that are lost come last, the most violent first.
+/// The line `least` of the lowest value that is lost, if given with what the columns do there, comes just before these classes. The first class that
+/// overturns says so.
+pub fn legend(panels: &[Vec<Class>], least: Option<(Stroke, &str)>) -> Vec<(Key, String)> {
     let shown = |class: &Class| Grid::share(panels, |found| found == *class) > 0.0;
     let entry = |class: Class| {
         let share = percent(Grid::share(panels, |found| found == class));
         (Key::Fill(class.fill()), format!("{}, {share}", class.name()))
     };
-    let (overturning, others): (Vec<Class>, Vec<Class>) =
-        Class::ALL.into_iter().rev().filter(shown).partition(|class| class.overturns());
+    let (lost, others): (Vec<Class>, Vec<Class>) =
+        Class::ALL.into_iter().rev().filter(shown).partition(|class| class.is_lost());
     let mut entries: Vec<_> = others.into_iter().rev().map(entry).collect();
-    if !overturning.is_empty() {
-        entries.extend(least.map(|stroke| (Key::Line(stroke), "least that overturns".into())));
+    if !lost.is_empty() {
+        entries.extend(least.map(|(stroke, loses)| (Key::Line(stroke), format!("least that {loses}"))));
     }
-    let first = entries.len();
-    entries.extend(overturning.into_iter().map(entry));
-    entries.iter_mut().skip(first).take(1).for_each(|(_, name)| name.insert_str(0, "overturns "));
+    let first = lost.iter().position(|class| class.overturns()).map(|place| entries.len() + place);
+    entries.extend(lost.into_iter().map(entry));
+    if let Some(first) = first {
+        entries[first].1.insert_str(0, "overturns ");
+    }
     entries
 }
 

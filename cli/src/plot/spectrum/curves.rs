@@ -82,7 +82,7 @@ impl<'p> Measure<'p> {
             subject: "Residual slide",
             words: "the size of the slide at the end of a run",
             label: "Residual slide [m]",
-            label_of_largest: "Largest residual slide of all interfaces [m]",
+            label_of_largest: "Largest residual slide [m]",
             entry: "interface",
             reference: None,
             least_top: 0.0,

@@ -129,12 +129,27 @@ impl Grid {
         cells().filter(|class| wanted(**class)).count() as f64 / cells().count() as f64
     }
 
-    /// Row of the lowest cell that overturns, for each column of a panel; `None` if no cell of the column does.
+    /// What columns that are lost do, for texts: "overturn", or "overturn or collapse" where some collapse.
+    pub fn loss(&self) -> Loss {
+        let collapses = self.panels.iter().flatten().any(|class| *class == Class::Collapses);
+        match collapses {
+            true => Loss { they: "overturn or collapse", it: "overturns or collapses" },
+            false => Loss { they: "overturn", it: "overturns" },
+        }
+    }
+
+    /// Row of the lowest cell that is lost, for each column of a panel; `None` if no cell of the column is.
     pub fn minimum(&self, panel: usize) -> Vec<Option<usize>> {
         let columns = self.plane.x.values.len();
-        let overturns = |x: usize, y: usize| self.panels[panel][y * columns + x].overturns();
-        (0..columns).map(|x| (0..self.plane.y.values.len()).find(|y| overturns(x, *y))).collect()
+        let is_lost = |x: usize, y: usize| self.panels[panel][y * columns + x].is_lost();
+        (0..columns).map(|x| (0..self.plane.y.values.len()).find(|y| is_lost(x, *y))).collect()
     }
+}
+
+/// Verb of what columns that are lost do, with a noun in the plural and in the singular.
+pub struct Loss {
+    pub they: &'static str,
+    pub it: &'static str,
 }
 
 #[cfg(test)]

@@ -1,5 +1,5 @@
 //! Overturning spectra: the outcome over the plane of two axes of a sweep, and, for each value of the horizontal axis, the least value of the vertical
-//! one that overturns the column.
+//! one at which the column is lost.
 
 use super::cells::{cells, legend, percent};
 use super::class::Class;
@@ -16,7 +16,7 @@ const MOST_COLUMNS: usize = 4;
 const HEIGHTS: [f64; MOST_COLUMNS] = [380.0, 320.0, 300.0, 300.0];
 const MINIMUM_HEIGHT: f64 = 300.0;
 
-/// Line along the lower edges of the lowest cells that overturn. The cells below the line are light, so that black is seen.
+/// Line along the lower edges of the lowest cells that are lost. The cells below the line are light, so that black is seen.
 const LEAST: Stroke = Stroke::solid("#000000", 1.3);
 
 /// Last part of the key for amplitudes as multiples of the one at which the base opens.
@@ -61,19 +61,20 @@ pub fn spectrum(grid: &Grid, paper: &Paper) -> Figure {
         style::LABEL,
         Anchor::Middle,
     );
-    sheet.height = sheet.legend(bottom + NUMBERS + 20.0, &legend(&grid.panels, Some(LEAST))) + 6.0;
+    sheet.height = sheet.legend(bottom + NUMBERS + 20.0, &legend(&grid.panels, Some((LEAST, grid.loss().it)))) + 6.0;
 
-    let share = |panel: usize| percent(Grid::share(&grid.panels[panel..=panel], Class::overturns));
+    let share = |panel: usize| percent(Grid::share(&grid.panels[panel..=panel], Class::is_lost));
     let parts = (0..titles.len()).map(|panel| format!("{} {}", titles[panel], share(panel)).trim_start().to_string());
     let caption = format!(
-        "{what}. Share of the plane that overturns: {}.{}",
+        "{what}. Share of the plane that {}: {}.{}",
+        grid.loss().it,
         parts.collect::<Vec<_>>().join(", "),
         grid.truncation
     );
     Figure::new("overturning-spectrum", caption, sheet)
 }
 
-/// The lower edge of the lowest cells that overturn.
+/// The lower edge of the lowest cells that are lost.
 fn staircase(place: &Place, minimum: &[Option<usize>]) -> Vec<Vec<Point>> {
     let mut runs: Vec<Vec<Point>> = Vec::new();
     let mut is_open = false;
@@ -90,10 +91,11 @@ fn staircase(place: &Place, minimum: &[Option<usize>]) -> Vec<Vec<Point>> {
     runs.iter().map(|run| curve::straighten(run)).collect()
 }
 
-/// Figure of the least values that overturn: a curve for each panel of the spectrum, all in one panel.
+/// Figure of the least values at which columns are lost: a curve for each panel of the spectrum, all in one panel.
 pub fn minimum(grid: &Grid, paper: &Paper) -> Figure {
     let Plane { x, y, titles, .. } = &grid.plane;
-    let what = format!("Least values that overturn: {} against {}", y.label(), x.label());
+    let loss = grid.loss();
+    let what = format!("Least values that {}: {} against {}", loss.they, y.label(), x.label());
     let mut sheet = Sheet::new(&what, paper);
     let frame = Frame { left: LEFT, top: GAP, width: sheet.width - LEFT - RIGHT, height: MINIMUM_HEIGHT };
     let place = Place { frame, x, y };
@@ -115,7 +117,7 @@ pub fn minimum(grid: &Grid, paper: &Paper) -> Figure {
         }
     }
     place.axes(&mut sheet, [true, true]);
-    place.label_upwards(&mut sheet, format!("{}, least that overturns", y.label()));
+    place.label_upwards(&mut sheet, format!("{}, least that {}", y.label(), loss.it));
     let below = [LEFT + 0.5 * frame.width, frame.bottom() + NUMBERS + 12.0];
     sheet.words(below, &x.label(), style::LABEL, Anchor::Middle);
     sheet.height = match entries.is_empty() {
@@ -123,11 +125,14 @@ pub fn minimum(grid: &Grid, paper: &Paper) -> Figure {
         false => sheet.legend(below[1] + 8.0, &entries) + 6.0,
     };
     let gaps = (0..titles.len()).any(|panel| grid.minimum(panel).contains(&None));
-    let note = if gaps { " Where a curve is interrupted nothing overturns up to the end of the axis." } else { "" };
+    let note = match gaps {
+        true => format!(" Where a curve is interrupted nothing {} up to the end of the axis.", loss.it),
+        false => String::new(),
+    };
     Figure::new("overturning-minimum", format!("{what}.{note}{}", grid.truncation), sheet)
 }
 
-/// Lines through the values of the lowest cells that overturn, interrupted at columns without such a cell. A single cell gives a line
+/// Lines through the values of the lowest cells that are lost, interrupted at columns without such a cell. A single cell gives a line
 /// as wide as the cell.
 fn curves(place: &Place, minimum: &[Option<usize>]) -> Vec<Vec<Point>> {
     let point = |column: usize, row: usize| {
