@@ -73,8 +73,8 @@ impl Growing {
         self.file.flush()
     }
 
-    /// Makes and writes the rows that are missing up to `end`. A row is in the file at the latest 0.1 s after it and those before it were made, so that an
-    /// interruption loses little, whatever a run costs.
+    /// Makes and writes the rows that are missing up to `end`. A row is in the file at the latest 0.1 s after it and those before it were made, or when the
+    /// next run of the same thread ends: an interruption loses little, whatever a run costs.
     pub fn fill<W: FnMut(usize) -> StringRecord>(
         &mut self,
         end: usize,
