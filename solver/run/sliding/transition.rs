@@ -207,15 +207,7 @@ impl<'p> PendingTransition<'p> {
         let may_repeat = hint.is_none_or(|(interface, joint)| is_new(joint, interface));
         let is_stale = |solution: &Solution| !may_repeat && solution.joints == before.joints;
         let found = match self.accelerations(&touch, hint) {
-            Some(stale) if is_stale(&stale) => {
-                let search = self.search(&touch);
-                let other = search.solve_otherwise(&before.joints);
-                // With less kinetic than static friction, slides are admissible that need not begin: a guard that names none begins none.
-                let slides = |(now, before): (&Joint, &Joint)| !now.sticks() && now.slip().is_some() && before.sticks();
-                let begins = other.as_ref().is_some_and(|other| other.joints.iter().zip(&before.joints).any(slides));
-                let named = hint.filter(|(_, joint)| begins && joint.sticks());
-                named.and_then(|(at, joint)| search.released(&before.joints, at, joint)).or(other).or(Some(stale))
-            }
+            Some(stale) if is_stale(&stale) => self.other_than(before, &touch, hint).or(Some(stale)),
             Some(found) => Some(found),
             None => self.search(&touch).solve_otherwise(&before.joints),
         };
@@ -254,6 +246,18 @@ impl<'p> PendingTransition<'p> {
         }
         self.ambiguous += usize::from(solution.is_ambiguous);
         Ok(self.search(&self.touching()).joints_an_instant_later(&solution))
+    }
+
+    /// Admissible states other than those before a guard's zero. With less kinetic than static friction, slides are admissible that need not begin: a guard
+    /// whose state sticks begins none, if that state is admissible at the zero.
+    fn other_than(&self, before: &Configuration, touch: &[Touch], hint: Option<(usize, Joint)>) -> Option<Solution> {
+        let search = self.search(touch);
+        let other = search.solve_otherwise(&before.joints)?;
+        let slides = |(now, before): (&Joint, &Joint)| !now.sticks() && now.slip().is_some() && before.sticks();
+        let begins = other.joints.iter().zip(&before.joints).any(slides);
+        let named = hint.filter(|(_, joint)| begins && joint.sticks());
+        let released = named.and_then(|(interface, joint)| search.released(&before.joints, interface, joint));
+        Some(released.unwrap_or(other))
     }
 
     /// Gives faces that stay on each other one angle and one rate, to the last bit. Momentum is conserved where their rates differ.
