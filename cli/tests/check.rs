@@ -152,3 +152,20 @@ fn a_check_says_what_this_ground_motion_does_first() {
     assert!((contact["slides_from"].as_f64().expect("it slides") - expected).abs() < 1e-12, "{contact}");
     assert!(text.contains(&format!("it slides first, at t = {expected:.4} s")), "{text}");
 }
+
+/// Two blocks, the upper one displaced by a fifth of its width: towards one side it takes 0.2444 g, towards the other 0.4222 g.
+#[test]
+fn a_check_says_towards_which_side_a_displaced_column_is_weak() {
+    let scene = |amplitude: &str| {
+        format!(
+            "[[block]]\nwidth = 1.0\nheight = 1.0\n[[block]]\nwidth = 1.0\nheight = 2.0\n[initial]\nslide = [0.0, 0.2]\n\
+             [excitation.horizontal]\nkind = \"half-sine\"\namplitude_g = {amplitude}\nperiod = 0.8\n"
+        )
+    };
+    let told = |amplitude: &str| Folder::with("scene.toml", &scene(amplitude)).succeeds("check scene.toml");
+    assert_has(
+        &told("0.4"),
+        &["0.4000 g opens no interface of the column at rest, which takes 0.2444 g towards its weaker side"],
+    );
+    assert_has(&told("-0.4"), &["is enough to open", "opens at 0.2444 g towards its weaker side"]);
+}

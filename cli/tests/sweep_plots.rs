@@ -266,3 +266,24 @@ fn the_spectrum_of_the_readme_is_what_its_sweep_says() {
         assert_eq!(titles(&shown), titles(&folder.read(&format!("{drawn}.svg"))));
     }
 }
+
+/// Two squat drums, the upper one displaced: where they are shaken long enough the upper one slides off, and nothing overturns.
+#[test]
+fn collapses_count_as_lost() {
+    let scene = "[friction]\nstatic = [0.7, 0.3]\n[column]\nblocks = 2\nhalf_width = 0.3\nhalf_height = 0.6\n[initial]\nslide = [0.0, 0.2]\n\
+        [excitation.horizontal]\nkind = \"sine-pulse\"\namplitude_g = 0.5\nperiod = 1.0\n";
+    let folder = Folder::with("base.toml", scene);
+    folder.write(
+        "sweep.toml",
+        "scene = \"base.toml\"\n[axes]\nperiod = [1.4, 1.5, 1.6]\namplitude_g = [0.4, 0.8, 1.2, 1.6]\n",
+    );
+    folder.succeeds("sweep sweep.toml --out t.csv --plot f.svg");
+    let table = folder.table("t.csv");
+    let rows: Vec<Row> = table.rows().collect();
+    let lost = rows.iter().filter(|row| ["collapses", "overturns"].contains(&row.text("outcome"))).count();
+    let collapsed = rows.iter().filter(|row| row.text("outcome") == "collapses").count();
+    assert!(collapsed > 0 && lost < rows.len(), "{collapsed} and {lost} of {}", rows.len());
+    let share = format!("overturns or collapses: {:.0} %", 100.0 * lost as f64 / rows.len() as f64);
+    assert_has(&folder.read("f.svg"), &[&share, "least that overturns or collapses"]);
+    assert_has(&folder.read("f-minimum.svg"), &["Least values that overturn or collapse"]);
+}

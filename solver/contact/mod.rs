@@ -69,6 +69,18 @@ mod tests {
         assert!((impulse.moment - 0.4 * impulse.normal).abs() < 1e-14);
     }
 
+    /// The last impact of a chatter asks for the friction of every other one, 3 t / (4 + t²) (Housner), not for that of the projection onto rest, 1 / t.
+    #[test]
+    fn impulses_leave_out_the_end_of_a_hop() {
+        let column = Column::new(vec![Block::rectangle(0.4, 1.6, 1.0)], 9.81).expect("valid");
+        let law = ImpactLaw { kappa: &[1.0], stick_angle: 1e-9, is_recorded: true };
+        let pattern = Pattern::from_signs(&[1]);
+        let after = impact(&column, &pattern, &[0.0], &[-4e-5], &[0], GROUND, law).expect("solvable");
+        assert_eq!((after.pattern, after.energy_lost), (Pattern::rest(1), 1.0));
+        let t: f64 = 0.25;
+        assert!((after.impulses[0].friction_demand() - 3.0 * t / (4.0 + t * t)).abs() < 1e-14);
+    }
+
     #[test]
     fn a_squat_block_stops_at_its_first_impact() {
         let column = Column::new(vec![Block::rectangle(2.0, 1.0, 1.0)], 9.81).expect("valid");

@@ -758,6 +758,17 @@ mod tests {
         assert_eq!(found, overturning(&shuffled));
     }
 
+    /// Two columns under the same records: one falls from 0.5 on, the other from 1.5 on. Neither comes back.
+    #[test]
+    fn records_of_several_columns_do_not_come_back() {
+        let column = |from: f64| [0.5, 1.0, 1.5, 2.0].map(|level| run(0, level, level >= from));
+        let both: Vec<Observation> = column(0.5).into_iter().chain(column(1.5)).collect();
+        assert!(overturning(&both).resurrections.is_empty());
+        let mut alone = column(0.5).to_vec();
+        alone[2] = run(0, 1.5, false);
+        assert_eq!(overturning(&alone).resurrections, ["r0"]);
+    }
+
     #[test]
     fn layout_is_told_by_the_levels() {
         let cloud: Vec<Observation> =
