@@ -181,24 +181,3 @@ fn the_library_does_not_depend_on_the_command_lines_crates() {
 fn the_build_script_is_short() {
     assert!(include_str!("../build.rs").lines().count() <= 30);
 }
-
-/// A crate of one version and one set of features is compiled once for the tests and the Python package, whose manifest is of a workspace of its own.
-#[test]
-fn the_python_package_is_locked_to_the_versions_of_the_workspace() {
-    let versions = |lock: &str| -> std::collections::BTreeSet<(String, String)> {
-        let of = |package: &str, key: &str| {
-            let line = package.lines().find_map(|line| line.strip_prefix(key)).expect("a name and a version");
-            line.trim_matches('"').to_string()
-        };
-        lock.split("[[package]]\n").skip(1).map(|package| (of(package, "name = "), of(package, "version = "))).collect()
-    };
-    let own = versions(include_str!("../Cargo.lock"));
-    let python = versions(include_str!("../python/Cargo.lock"));
-    let is_shared = |name: &String| own.iter().any(|(known, _)| known == name);
-    let others: Vec<_> = python.difference(&own).filter(|(name, _)| is_shared(name)).collect();
-    assert!(own.len() > 100 && python.len() > 100, "{} and {} packages", own.len(), python.len());
-    assert!(
-        others.is_empty(),
-        "`cp Cargo.lock python/ && (cd python && cargo metadata > /dev/null)`; other versions: {others:?}"
-    );
-}
