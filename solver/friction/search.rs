@@ -9,18 +9,22 @@
 //!
 //! and the same with velocities and impulses in an impact. The search begins with what sticks and lets each violated condition name the next
 //! state. Where it goes in circles, it begins anew from the solution of a complementarity problem ([`super::complementarity`]). Where that fails as
-//! well, and where a few blocks of large coefficients may have several answers, all combinations are tried: the admissible one with the fewest changes holds, in an impact the one with the least energy of the change.
+//! well, and where a few blocks of large coefficients may have several answers, all combinations are tried: the admissible one with the fewest changes
+//! holds, in an impact the one with the least energy of the change.
+//!
+//! The conditions are in `search/conditions.rs`, jams and restitution in `search/impact.rs`, corners that coincide in `search/instant_later.rs`.
+
+mod conditions;
+mod impact;
+mod instant_later;
 
 use super::chain::{Chain, Rates};
 use super::complementarity;
-use super::contact_problem::{Coefficients, Question, Touch, centre, cone_margins, half_length};
-use super::gaps::{self, Corner};
-use super::joint::{Configuration, Face, Joint, Sign, Slip, coincidence, face, face_after_coinciding, joined_above};
+use super::contact_problem::{Coefficients, Question, Touch, centre};
+use super::joint::{Configuration, Joint, Sign, Slip};
 use super::rows::{Answer, Rows};
 use crate::column::Column;
-use crate::contact::ENERGY_ROUNDING;
 use crate::mechanics::dynamics::Ground;
-use crate::mechanics::kinematics::{lower, relative};
 use crate::numerics::per_block::PerBlock;
 use std::cell::OnceCell;
 
@@ -50,9 +54,6 @@ const RELEASE_SHARE: f64 = 1e-6;
 /// for the next.
 pub const GUARD_SLACK_SHARE: f64 = 2.0 * ACCELERATION_SHARE;
 
-/// Least change of some velocity that makes an impact, as a share of the speed at work.
-const JUMP_SHARE: f64 = 1e-9;
-
 /// Largest number of combinations that are tried one by one; beyond it, none is tried. Three blocks have a thousand.
 const MOST_TRIED: usize = 20_000;
 
@@ -62,10 +63,6 @@ const AMBIGUOUS_FROM: f64 = 0.8;
 
 /// Largest number of interfaces for which all combinations are tried to find a second answer.
 const MOST_BLOCKS_TRIED: usize = 3;
-
-/// Speeds with which blocks come down on each other where a jam is answered as the limit of impacts, as shares of the speed at work. Large ones change the
-/// states, small ones are lost in rounding.
-const APPROACH_SHARES: [f64; 3] = [1e-3, 1e-5, 1e-7];
 
 /// Least difference of some velocity, or acceleration, between two answers with other motions, as a share of the speed, or acceleration, at work. Smaller,
 /// and the rounding of one motion counts as two.
@@ -153,6 +150,11 @@ impl<'a> Search<'a> {
         Search { column, now, touch, friction, question, now_rates, centres, chain: OnceCell::new(), linear, slack }
     }
 
+    /// The states with accelerations that are admissible beside `excluded`. `None` if there are none, or too many combinations.
+    pub fn solve_otherwise(&self, excluded: &[Joint]) -> Option<Solution> {
+        self.tried(&self.first(), |joints, _| joints != excluded)
+    }
+
     /// The states that follow; the search begins with the states `first`. `None` if no states are admissible.
     pub fn solve_from(&self, first: PerBlock<Joint>) -> Option<Solution> {
         self.found_from(first).map(|found| self.with_fewest_slides(found))
@@ -232,112 +234,6 @@ impl<'a> Search<'a> {
         Some(joints.iter().enumerate().map(carried).collect())
     }
 
-    /// Admissible states other than `excluded`; in an impact, those that change the motion. `None` if none are found.
-    pub fn solve_otherwise(&self, excluded: &[Joint]) -> Option<Solution> {
-        let changes = |answer: &Answer| {
-            let fastest = answer.change.linear.iter().fold(0.0f64, |most, v| most.max(v[0].abs() + v[1].abs()));
-            fastest > JUMP_SHARE * self.linear
-        };
-        // Where the rows of the present states are singular, rounding gives these states a change of any size.
-        let is_other = |joints: &[Joint], answer: &Answer| {
-            joints != excluded && (matches!(self.question, Question::Accelerations(_)) || changes(answer))
-        };
-        let first = self.first();
-        let found = self.tried(&first, is_other);
-        if found.is_some() || matches!(self.question, Question::Accelerations(_)) {
-            return found;
-        }
-        // No combination was found, or there are too many: search from all that sticks, then from each slide at rest while the other slides go on.
-        let sliding = |interface: usize| {
-            let rate = self.now.slide_rate[interface];
-            (rate != 0.0 && first[interface].slip().is_some()).then_some(Slip::along(rate))
-        };
-        let with_one_at_rest = |resting: usize| -> PerBlock<Joint> {
-            let joint = |(interface, joint): (usize, &Joint)| match (sliding(interface), *joint) {
-                (Some(slip), Joint::Closed(_)) if interface != resting => Joint::Closed(slip),
-                (Some(slip), Joint::Corner(side, ..)) if interface != resting => self.corner(interface, side, slip),
-                (_, joint) => joint,
-            };
-            first.iter().enumerate().map(joint).collect()
-        };
-        let resting = (0..first.len()).filter(|interface| sliding(*interface).is_some());
-        let starts = std::iter::once(first.clone()).chain(resting.map(with_one_at_rest));
-        let solutions = starts.filter_map(|start| self.guided(start));
-        let solution = solutions.filter(|found| is_other(&found.joints, &found.answer)).min_by(|a, b| {
-            let energies = [a, b].map(|solution| solution.answer.change.energy(self.column));
-            energies[0].total_cmp(&energies[1])
-        });
-        let approaching = || {
-            let states = APPROACH_SHARES.iter().filter_map(|share| self.states_if_approaching(share * self.linear));
-            let mut solutions = states.filter_map(|states| self.guided(states));
-            solutions.find(|found| is_other(&found.joints, &found.answer))
-        };
-        solution.or_else(approaching)
-    }
-
-    /// The states after an impact in which all blocks come down on those below with this speed `[m/s]` besides their motion: a jam is the limit of such
-    /// impacts. `None` if there is no impact, or Lemke's method finds no states.
-    fn states_if_approaching(&self, speed: f64) -> Option<PerBlock<Joint>> {
-        let Question::Impact(before) = &self.question else { return None };
-        let mut before = before.clone();
-        before.linear.iter_mut().enumerate().for_each(|(block, v)| v[1] -= (block + 1) as f64 * speed);
-        let question = Question::Impact(before);
-        Search::new(self.column, self.now, self.touch, self.friction, question).complementary(&self.friction.kinetic)
-    }
-
-    /// The states an instant later: coinciding corners that slide continue along the face that carries them by then, or part where that state does
-    /// not hold. Other interfaces whose conditions no longer hold then change as well.
-    pub fn joints_an_instant_later(&self, solution: &Solution) -> PerBlock<Joint> {
-        let mut joints = solution.joints.clone();
-        let mut is_carried = PerBlock::filled(false, joints.len());
-        for interface in 0..joints.len() {
-            let later = self.joint_an_instant_later(interface, joints[interface]);
-            let Some((joint, direction)) = later else { continue };
-            (joints[interface], is_carried[interface]) = (joint, true);
-            let holds = self.answer(&joints).is_some_and(|answer| {
-                let along = f64::from(direction) * answer.motion.slide[interface];
-                answer.contacts[interface].normal >= -self.force_slack(interface, self.slack)
-                    && along >= -self.slack.linear
-            });
-            if !holds {
-                joints[interface] = Joint::Free;
-            }
-        }
-        if !is_carried.contains(&true) {
-            return joints;
-        }
-        // Each of the others changes a few times at most: it slides, then parts.
-        for _ in 0..3 * joints.len() {
-            let Some(answer) = self.answer(&joints) else { return joints };
-            let mut others = (0..joints.len()).filter(|i| !is_carried[*i]);
-            let required = |i: usize| self.required(&joints, &answer, i, self.slack).map(|joint| (i, joint));
-            let Some((interface, joint)) = others.find_map(required) else { return joints };
-            joints[interface] = self.joint_an_instant_later(interface, joint).map_or(joint, |(later, _)| later);
-        }
-        // They go in circles: no state of theirs goes with the carried ones.
-        self.solved_an_instant_later(&solution.joints).unwrap_or(joints)
-    }
-
-    /// The states that the whole search finds once coinciding corners that slide are just too far apart to coincide.
-    fn solved_an_instant_later(&self, joints: &[Joint]) -> Option<PerBlock<Joint>> {
-        let mut later = self.now.clone();
-        for (interface, joint) in joints.iter().enumerate() {
-            if let Some((_, direction)) = self.joint_an_instant_later(interface, *joint) {
-                later.slide[interface] += f64::from(direction) * 2.0 * coincidence(self.column, interface);
-            }
-        }
-        let search = Search::new(self.column, &later, self.touch, self.friction, self.question.clone());
-        search.solve_from(search.first()).map(|found| found.joints)
-    }
-
-    /// The state of coinciding corners that begin to slide, once they coincide no more, and the direction of the slide; `None` for all others.
-    fn joint_an_instant_later(&self, interface: usize, joint: Joint) -> Option<(Joint, Sign)> {
-        let Joint::Corner(side, _, Slip::Slides(direction)) = joint else { return None };
-        let coincide = face(self.column, interface, side, self.now.slide[interface]) == Face::Both;
-        let begins = coincide && self.given_slip(interface).is_none();
-        begins.then(|| (Joint::after_coinciding(side, direction), direction))
-    }
-
     /// The states with which the search begins: what touches sticks, what slides goes on.
     pub fn first(&self) -> PerBlock<Joint> {
         let joint = |(interface, touch): (usize, &Touch)| {
@@ -353,51 +249,6 @@ impl<'a> Search<'a> {
             }
         };
         self.touch.iter().enumerate().map(joint).collect()
-    }
-
-    /// Slip with the direction of the present slide rate; `None` in an impact, or where that rate is zero.
-    fn given_slip(&self, interface: usize) -> Option<Slip> {
-        let rate = self.now.slide_rate[interface];
-        let is_given = matches!(self.question, Question::Accelerations(_)) && rate != 0.0;
-        is_given.then_some(Slip::along(rate))
-    }
-
-    /// The face that carries a corner. Coinciding corners that slide already are on the face that carries them an instant later: along the other one, their
-    /// velocity would have another direction.
-    fn face(&self, interface: usize, side: Sign) -> Face {
-        match (face(self.column, interface, side, self.now.slide[interface]), self.given_slip(interface)) {
-            (Face::Both, Some(Slip::Slides(direction))) => face_after_coinciding(side, direction),
-            (face, _) => face,
-        }
-    }
-
-    /// State of a corner on the face that carries it. Coinciding corners are two contacts, each corner against the prolonged face of the other block:
-    /// they begin to slide outwards along the lower face and inwards along the upper one, and part from the other face.
-    fn corner(&self, interface: usize, side: Sign, slip: Slip) -> Joint {
-        let face = match (self.face(interface, side), slip) {
-            (Face::Both, Slip::Slides(direction)) if direction == side => Face::Lower,
-            (Face::Both, Slip::Slides(_)) => Face::Upper,
-            (face, _) => face,
-        };
-        Joint::Corner(side, face, slip)
-    }
-
-    /// The states that an interface may take.
-    fn choices(&self, interface: usize) -> PerBlock<Joint> {
-        let slips = match self.given_slip(interface) {
-            Some(slip) => vec![slip],
-            None => vec![Slip::Sticks, Slip::Slides(1), Slip::Slides(-1)],
-        };
-        let corners = |side: Sign| slips.iter().map(move |slip| self.corner(interface, side, *slip));
-        let mut choices: PerBlock<Joint> = match self.touch[interface] {
-            Touch::Nothing => PerBlock::new(),
-            Touch::Corner(side) => corners(side).collect(),
-            Touch::Faces => {
-                slips.iter().map(|slip| Joint::Closed(*slip)).chain(corners(1)).chain(corners(-1)).collect()
-            }
-        };
-        choices.push(Joint::Free);
-        choices
     }
 
     /// Accelerations and forces, or velocities and impulses, in these states; `None` where the rows do not determine them.
@@ -428,39 +279,6 @@ impl<'a> Search<'a> {
             }
         }
         configuration
-    }
-
-    /// The answer to an impact after restitution at an interface: its relative rate is multiplied by `factor`, through an equal and opposite moment
-    /// impulse there, in the states of the plastic solution (docs/book/model.md, sections 5 and 17). `None` where that would raise the energy, or break
-    /// a condition of contact.
-    pub fn rebound(&self, plastic: &Solution, interface: usize, factor: f64) -> Option<Answer> {
-        let Question::Impact(before) = &self.question else { return None };
-        let joints = &plastic.joints;
-        let configuration = self.configuration(joints);
-        let chain = Chain::new(self.column, &configuration);
-        let rows = Rows::new(&chain, joints, &self.friction.kinetic, &self.centres);
-        let plastic = &plastic.answer.motion;
-        let spread = rows.turned_by_moment(interface)?;
-        let (rate, compliance) = (relative(&plastic.omega, interface), relative(&spread.omega, interface));
-        if compliance.is_nan() || compliance <= 0.0 {
-            return None;
-        }
-        let mut rates = plastic.plus((factor - 1.0) * rate / compliance, &spread);
-        // Exactly: with a factor of zero, the rounding of the sum would be a hop.
-        let rebound = lower(&rates.omega, interface) + factor * rate;
-        rates.omega[joined_above(joints, interface)].fill(rebound);
-        let answer = rows.given(rates, before);
-        let gains =
-            chain.motion(&answer.motion).energy(self.column) > before.energy(self.column) * (1.0 + ENERGY_ROUNDING);
-        let holds = |i: usize| match joints[i] {
-            // Where the resultant acts in a closed contact is no condition of restitution.
-            Joint::Closed(_) => {
-                answer.contacts[i].normal >= -self.force_slack(i, self.slack)
-                    && self.wrong_slip(i, joints[i], &answer, self.slack).is_none()
-            }
-            _ => self.required(joints, &answer, i, self.slack).is_none(),
-        };
-        (!gains && (0..joints.len()).all(holds)).then_some(answer)
     }
 
     /// Changes states as violated conditions name them, until none is violated. `None` where this goes in circles, takes too many rounds, or comes to
@@ -529,134 +347,5 @@ impl<'a> Search<'a> {
         let is_clear = |joints: &[Joint], other: &Answer| self.is_admissible(joints, other, self.slack.margin());
         let is_ambiguous = admissible.iter().any(|(_, _, joints, other)| is_other(other) && is_clear(joints, other));
         Some(Solution { joints, answer, is_ambiguous })
-    }
-
-    /// Violation of a condition on the force, or impulse, at an interface that counts as rounding `[N]`, `[N s]`.
-    fn force_slack(&self, interface: usize, violation: Slack) -> f64 {
-        self.column.mass_above(interface) * violation.linear
-    }
-
-    /// Whether states are admissible: all conditions hold, up to `slack`.
-    fn is_admissible(&self, joints: &[Joint], answer: &Answer, slack: Slack) -> bool {
-        (0..joints.len()).all(|interface| self.required(joints, answer, interface, slack).is_none())
-    }
-
-    /// The state that a violated condition of an interface names; `None` if all conditions hold, up to `violation`.
-    fn required(&self, joints: &[Joint], answer: &Answer, interface: usize, violation: Slack) -> Option<Joint> {
-        let (joint, contact) = (joints[interface], answer.contacts[interface]);
-        let slack = self.force_slack(interface, violation);
-        match joint {
-            Joint::Free => self.sinks(answer, interface, violation),
-            Joint::Closed(slip) => {
-                let reach = half_length(self.column, interface, self.now.slide[interface]);
-                if contact.normal < -slack {
-                    return Some(Joint::Free);
-                }
-                // The resultant is at -M / N from the centre.
-                if contact.moment.abs() > reach * (contact.normal + slack) {
-                    let side = if contact.moment > 0.0 { -1 } else { 1 };
-                    return Some(self.corner(interface, side, slip));
-                }
-                self.wrong_slip(interface, joint, answer, violation).map(Joint::Closed)
-            }
-            Joint::Corner(side, _, slip) => {
-                let other_slip = self.wrong_slip(interface, joint, answer, violation);
-                // The sum of two cones may hold what one face would have to pull.
-                let is_held = joint.is_corner_on_corner() && slip == Slip::Sticks && other_slip.is_none();
-                if contact.normal < -slack && !is_held {
-                    return Some(Joint::Free);
-                }
-                let opening = f64::from(side) * relative(&answer.motion.omega, interface);
-                if self.touch[interface] == Touch::Faces && opening < -violation.angular {
-                    return Some(Joint::Closed(slip));
-                }
-                other_slip.map(|slip| self.corner(interface, side, slip))
-            }
-        }
-    }
-
-    /// The slip that a violated condition names.
-    fn wrong_slip(&self, interface: usize, joint: Joint, answer: &Answer, violation: Slack) -> Option<Slip> {
-        let slack = self.force_slack(interface, violation);
-        match joint.slip()? {
-            Slip::Sticks => {
-                if let Some(slip) = self.given_slip(interface) {
-                    return Some(slip);
-                }
-                let coefficient = match self.question {
-                    Question::Accelerations(_) => self.friction.fixed[interface],
-                    Question::Impact(_) => self.friction.kinetic[interface],
-                };
-                let [to_left, to_right] =
-                    cone_margins(joint, self.now.relative_angle(interface), answer.contacts[interface], coefficient);
-                match (to_left < -slack, to_right < -slack) {
-                    (true, _) => Some(Slip::Slides(-1)),
-                    (_, true) => Some(Slip::Slides(1)),
-                    _ => None,
-                }
-            }
-            Slip::Slides(direction) => {
-                let along = f64::from(direction) * answer.motion.slide[interface];
-                match self.given_slip(interface) {
-                    // A slide that goes on against its rate would lose that rate at once.
-                    Some(given) => (Some(given) != joint.slip()).then_some(given),
-                    None => (along < -violation.linear).then_some(Slip::Sticks),
-                }
-            }
-        }
-    }
-
-    /// Contact that a free interface must take because a corner would sink in; `None` if no corner does.
-    fn sinks(&self, answer: &Answer, interface: usize, violation: Slack) -> Option<Joint> {
-        let slack = -violation.linear;
-        match self.touch[interface] {
-            Touch::Nothing => None,
-            Touch::Corner(side) => {
-                let face = self.face(interface, side);
-                let leaving = |face| self.leaving(answer, Corner { interface, side, face });
-                let (lower, upper) = (|| leaving(Face::Lower), || leaving(Face::Upper));
-                let apart = match face {
-                    Face::Lower => lower(),
-                    Face::Upper => upper(),
-                    Face::Both => lower().min(upper()),
-                };
-                let slip = self.given_slip(interface).unwrap_or(Slip::Sticks);
-                (apart < slack).then(|| self.corner(interface, side, slip))
-            }
-            Touch::Faces => {
-                let sinking = [1, -1].map(|side| {
-                    let face = match face(self.column, interface, side, self.now.slide[interface]) {
-                        Face::Upper => Face::Upper,
-                        _ => Face::Lower,
-                    };
-                    self.leaving(answer, Corner { interface, side, face }) < slack
-                });
-                let slip = self.given_slip(interface).unwrap_or(Slip::Sticks);
-                match sinking {
-                    [true, true] => Some(Joint::Closed(slip)),
-                    [true, false] => Some(self.corner(interface, 1, slip)),
-                    [false, true] => Some(self.corner(interface, -1, slip)),
-                    [false, false] => None,
-                }
-            }
-        }
-    }
-
-    /// Acceleration, or velocity, with which a corner leaves the other face.
-    fn leaving(&self, answer: &Answer, corner: Corner) -> f64 {
-        let chain = self.chain();
-        let change = answer.motion.apart[corner.interface];
-        match self.question {
-            Question::Impact(_) => gaps::slide_and_gap_rates_of(chain, change, &answer.motion.omega, corner)[1],
-            Question::Accelerations(_) => {
-                let rate = chain.apart_rate(corner.interface, &self.now_rates);
-                gaps::slide_and_gap_accelerations(
-                    chain,
-                    [rate, change],
-                    [&self.now.omega, &answer.motion.omega],
-                    corner,
-                )[1]
-            }
-        }
     }
 }

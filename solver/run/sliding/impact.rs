@@ -83,7 +83,7 @@ impl PendingTransition<'_> {
         let motion = chain.motion(&Rates::of(&before));
         let search = Search::new(self.column(), &before, touch, self.friction, Question::Impact(motion.clone()));
         let found = if closing.is_empty() {
-            search.solve_otherwise(&before.joints)
+            search.solve_jam(&before.joints)
         } else {
             // Most often the interface that closes goes on to its other corner.
             let mut first = search.first();

@@ -1,0 +1,103 @@
+//! Impacts beyond their first answer: jams, which no closing contact begins, and restitution (docs/book/model.md, sections 16 and 17).
+
+use super::{Search, Solution};
+use crate::contact::ENERGY_ROUNDING;
+use crate::friction::chain::Chain;
+use crate::friction::contact_problem::Question;
+use crate::friction::joint::{Joint, Slip, joined_above};
+use crate::friction::rows::{Answer, Rows};
+use crate::mechanics::kinematics::{lower, relative};
+use crate::numerics::per_block::PerBlock;
+
+/// Least change of some velocity that makes an impact, as a share of the speed at work.
+const JUMP_SHARE: f64 = 1e-9;
+
+/// Speeds with which blocks come down on each other where a jam is answered as the limit of impacts, as shares of the speed at work. Large ones change the
+/// states, small ones are lost in rounding.
+const APPROACH_SHARES: [f64; 3] = [1e-3, 1e-5, 1e-7];
+
+impl Search<'_> {
+    /// The states after a jam (Painlevé): an impact in which nothing closes, after which the motion is another one and `excluded` do not go on. `None` if none
+    /// are found.
+    pub fn solve_jam(&self, excluded: &[Joint]) -> Option<Solution> {
+        let changes = |answer: &Answer| {
+            let fastest = answer.change.linear.iter().fold(0.0f64, |most, v| most.max(v[0].abs() + v[1].abs()));
+            fastest > JUMP_SHARE * self.linear
+        };
+        // Where the rows of the present states are singular, rounding gives these states a change of any size.
+        let is_other = |joints: &[Joint], answer: &Answer| joints != excluded && changes(answer);
+        let first = self.first();
+        if let Some(found) = self.tried(&first, is_other) {
+            return Some(found);
+        }
+        // No combination was found, or there are too many: search from all that sticks, then from each slide at rest while the other slides go on.
+        let sliding = |interface: usize| {
+            let rate = self.now.slide_rate[interface];
+            (rate != 0.0 && first[interface].slip().is_some()).then_some(Slip::along(rate))
+        };
+        let with_one_at_rest = |resting: usize| -> PerBlock<Joint> {
+            let joint = |(interface, joint): (usize, &Joint)| match (sliding(interface), *joint) {
+                (Some(slip), Joint::Closed(_)) if interface != resting => Joint::Closed(slip),
+                (Some(slip), Joint::Corner(side, ..)) if interface != resting => self.corner(interface, side, slip),
+                (_, joint) => joint,
+            };
+            first.iter().enumerate().map(joint).collect()
+        };
+        let resting = (0..first.len()).filter(|interface| sliding(*interface).is_some());
+        let starts = std::iter::once(first.clone()).chain(resting.map(with_one_at_rest));
+        let solutions = starts.filter_map(|start| self.guided(start));
+        let solution = solutions.filter(|found| is_other(&found.joints, &found.answer)).min_by(|a, b| {
+            let energies = [a, b].map(|solution| solution.answer.change.energy(self.column));
+            energies[0].total_cmp(&energies[1])
+        });
+        let approaching = || {
+            let states = APPROACH_SHARES.iter().filter_map(|share| self.states_if_approaching(share * self.linear));
+            let mut solutions = states.filter_map(|states| self.guided(states));
+            solutions.find(|found| is_other(&found.joints, &found.answer))
+        };
+        solution.or_else(approaching)
+    }
+
+    /// The states after an impact in which all blocks come down on those below with this speed `[m/s]` besides their motion: a jam is the limit of such
+    /// impacts. `None` if there is no impact, or Lemke's method finds no states.
+    fn states_if_approaching(&self, speed: f64) -> Option<PerBlock<Joint>> {
+        let Question::Impact(before) = &self.question else { return None };
+        let mut before = before.clone();
+        before.linear.iter_mut().enumerate().for_each(|(block, v)| v[1] -= (block + 1) as f64 * speed);
+        let question = Question::Impact(before);
+        Search::new(self.column, self.now, self.touch, self.friction, question).complementary(&self.friction.kinetic)
+    }
+
+    /// The answer to an impact after restitution at an interface: its relative rate is multiplied by `factor`, through an equal and opposite moment
+    /// impulse there, in the states of the plastic solution (docs/book/model.md, sections 5 and 17). `None` where that would raise the energy, or break
+    /// a condition of contact.
+    pub fn rebound(&self, plastic: &Solution, interface: usize, factor: f64) -> Option<Answer> {
+        let Question::Impact(before) = &self.question else { return None };
+        let joints = &plastic.joints;
+        let configuration = self.configuration(joints);
+        let chain = Chain::new(self.column, &configuration);
+        let rows = Rows::new(&chain, joints, &self.friction.kinetic, &self.centres);
+        let plastic = &plastic.answer.motion;
+        let spread = rows.turned_by_moment(interface)?;
+        let (rate, compliance) = (relative(&plastic.omega, interface), relative(&spread.omega, interface));
+        if compliance.is_nan() || compliance <= 0.0 {
+            return None;
+        }
+        let mut rates = plastic.plus((factor - 1.0) * rate / compliance, &spread);
+        // Exactly: with a factor of zero, the rounding of the sum would be a hop.
+        let rebound = lower(&rates.omega, interface) + factor * rate;
+        rates.omega[joined_above(joints, interface)].fill(rebound);
+        let answer = rows.given(rates, before);
+        let gains =
+            chain.motion(&answer.motion).energy(self.column) > before.energy(self.column) * (1.0 + ENERGY_ROUNDING);
+        let holds = |i: usize| match joints[i] {
+            // Where the resultant acts in a closed contact is no condition of restitution.
+            Joint::Closed(_) => {
+                answer.contacts[i].normal >= -self.force_slack(i, self.slack)
+                    && self.wrong_slip(i, joints[i], &answer, self.slack).is_none()
+            }
+            _ => self.required(joints, &answer, i, self.slack).is_none(),
+        };
+        (!gains && (0..joints.len()).all(holds)).then_some(answer)
+    }
+}
