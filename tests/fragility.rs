@@ -1,5 +1,9 @@
 //! Fragility on made-up data: against closed forms, a search by brute force, and statsmodels.
 
+#[path = "common/random.rs"]
+mod random;
+
+use random::Random;
 use rocking::Fate;
 use rocking::studies::probit::{Maximum, Probit, Trial, fit};
 use rocking::studies::{Fit, Fragility, FragilityOptions, LimitState, Observation};
@@ -188,28 +192,19 @@ fn what_is_not_monotonic_is_said() {
     assert!(told.contains("not monotonic") && told.contains("(r0)") && told.contains("1 undecided run(s)"), "{told}");
 }
 
-/// Uniform and normal numbers of a fixed sequence (Knuth's generator; the sum of twelve uniform numbers less six).
-struct Numbers(u64);
-
-impl Numbers {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn normal(&mut self) -> f64 {
-        (0..12).map(|_| self.uniform()).sum::<f64>() - 6.0
-    }
+/// A number of the normal distribution: the sum of twelve uniform numbers less six.
+fn normal(random: &mut Random) -> f64 {
+    (0..12).map(|_| random.within(0.0, 1.0)).sum::<f64>() - 6.0
 }
 
 /// How often bands of 90 % hold the truth: records whose capacities are lognormal, each at fifteen levels. Returns the shares of sets whose bands hold
 /// median and dispersion, and of those that have bands.
 fn coverage(records: usize, sets: usize) -> [f64; 3] {
     let (median, dispersion) = (0.7, 0.4);
-    let mut numbers = Numbers(records as u64);
+    let mut random = Random::new(records as u64);
     let mut held = [0.0; 3];
     for set in 0..sets {
-        let capacities: Vec<f64> = (0..records).map(|_| median * (dispersion * numbers.normal()).exp()).collect();
+        let capacities: Vec<f64> = (0..records).map(|_| median * (dispersion * normal(&mut random)).exp()).collect();
         let run = |record: usize, level: f64| Observation {
             record: format!("r{record:03}"),
             level,

@@ -5,11 +5,14 @@
 
 #[path = "common/friction_oracle.rs"]
 mod friction_oracle;
+#[path = "common/random.rs"]
+mod random;
 
 use friction_oracle::{
     Block, Coinciding, Contact, Friction, Grip, Joint, Side, Solution, Stack, State, Vec2, accelerations, chosen,
     impact, touching,
 };
+use random::Random;
 
 const GRAVITY: f64 = 9.81;
 
@@ -256,84 +259,63 @@ fn corner_on_corner_holds_in_the_sum_of_both_cones() {
     }
 }
 
-/// Deterministic numbers in [-1, 1) from a seed (splitmix64).
-struct Random(u64);
+/// Drums that taper, of half-widths about 0.5 m and half-heights of 0.3 to 1 m, `friction` at all interfaces.
+fn random_stack(random: &mut Random, blocks: usize, friction: f64) -> Stack {
+    let mut block = || {
+        let (bottom, taper, height) = (random.within(0.4, 0.6), random.within(0.8, 1.0), random.within(0.6, 2.0));
+        Block::trapezoid(bottom, bottom * taper, height, 2600.0)
+    };
+    let blocks: Vec<Block> = (0..blocks).map(|_| block()).collect();
+    let friction = vec![friction; blocks.len()];
+    stack(&blocks, &friction)
+}
 
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * 0.5 * (self.next() + 1.0)
-    }
-
-    fn pick<T: Copy>(&mut self, items: &[T]) -> T {
-        items[((0.5 * (self.next() + 1.0)) * items.len() as f64) as usize]
-    }
-
-    /// Drums that taper, of half-widths about 0.5 m and half-heights of 0.3 to 1 m, `friction` at all interfaces.
-    fn stack(&mut self, blocks: usize, friction: f64) -> Stack {
-        let mut block = || {
-            let (bottom, taper, height) = (self.between(0.4, 0.6), self.between(0.8, 1.0), self.between(0.6, 2.0));
-            Block::trapezoid(bottom, bottom * taper, height, 2600.0)
-        };
-        let blocks: Vec<Block> = (0..blocks).map(|_| block()).collect();
-        let friction = vec![friction; blocks.len()];
-        stack(&blocks, &friction)
-    }
-
-    /// Interfaces closed, on a corner, or free by a gap, displaced, with or without slip.
-    fn state(&mut self, stack: &Stack, kinds: &[&str]) -> State {
-        let count = stack.blocks.len();
-        let (mut theta, mut omega, mut joints) = (vec![], vec![], vec![]);
-        let mut below = [0.0, 0.0];
-        for interface in 0..count {
-            let slide = self.between(-0.15, 0.15);
-            let slip = self.pick(&[0.0, 0.0, 0.4, -0.4]);
-            let (lean, spin) = (self.between(0.02, 0.2), self.between(-0.8, 0.8));
-            let side = self.pick(&[Side::Left, Side::Right]);
-            let joint = match self.pick(kinds) {
-                "closed" => Joint::Closed { slide, slip },
-                "corner" => Joint::Corner { side, slide, slip },
-                "lands" => {
-                    // Faces meet while the blocks turn apart from each other and approach.
-                    Joint::Free { offset: [slide, 0.0], rate: [slip, -self.between(0.5, 1.5)] }
-                }
-                _ => Joint::Free { offset: [slide, 0.3], rate: [slip, 0.2] },
-            };
-            let turn = match joint {
-                Joint::Closed { .. } => [0.0, 0.0],
-                Joint::Corner { side, .. } => [side.sign() * lean, spin],
-                Joint::Free { offset, .. } if offset[1] == 0.0 => [0.0, spin],
-                Joint::Free { .. } => [spin * 0.2, spin],
-            };
-            below = [below[0] + turn[0], below[1] + turn[1]];
-            if turn == [0.0, 0.0] && interface > 0 {
-                below = [theta[interface - 1], omega[interface - 1]];
+/// Interfaces closed, on a corner, or free by a gap, displaced, with or without slip.
+fn random_state(random: &mut Random, stack: &Stack, kinds: &[&str]) -> State {
+    let count = stack.blocks.len();
+    let (mut theta, mut omega, mut joints) = (vec![], vec![], vec![]);
+    let mut below = [0.0, 0.0];
+    for interface in 0..count {
+        let slide = random.within(-0.15, 0.15);
+        let slip = random.pick(&[0.0, 0.0, 0.4, -0.4]);
+        let (lean, spin) = (random.within(0.02, 0.2), random.within(-0.8, 0.8));
+        let side = random.pick(&[Side::Left, Side::Right]);
+        let joint = match random.pick(kinds) {
+            "closed" => Joint::Closed { slide, slip },
+            "corner" => Joint::Corner { side, slide, slip },
+            "lands" => {
+                // Faces meet while the blocks turn apart from each other and approach.
+                Joint::Free { offset: [slide, 0.0], rate: [slip, -random.within(0.5, 1.5)] }
             }
-            theta.push(below[0]);
-            omega.push(below[1]);
-            joints.push(joint);
+            _ => Joint::Free { offset: [slide, 0.3], rate: [slip, 0.2] },
+        };
+        let turn = match joint {
+            Joint::Closed { .. } => [0.0, 0.0],
+            Joint::Corner { side, .. } => [side.sign() * lean, spin],
+            Joint::Free { offset, .. } if offset[1] == 0.0 => [0.0, spin],
+            Joint::Free { .. } => [spin * 0.2, spin],
+        };
+        below = [below[0] + turn[0], below[1] + turn[1]];
+        if turn == [0.0, 0.0] && interface > 0 {
+            below = [theta[interface - 1], omega[interface - 1]];
         }
-        State::stacked(stack, &theta, &omega, &joints)
+        theta.push(below[0]);
+        omega.push(below[1]);
+        joints.push(joint);
     }
+    State::stacked(stack, &theta, &omega, &joints)
 }
 
 /// Gaps and slips of the solutions against the geometry of the moved blocks: constraints and their parts in the rates are right.
 #[test]
 fn contacts_stay_closed_when_blocks_are_moved() {
-    let mut random = Random(7);
+    let mut random = Random::new(7);
     let (step, mut seen) = (1e-4, [0; 2]);
     for case in 0..300 {
         let friction = random.pick(&[0.2, 0.5]);
-        let stack = random.stack(1 + case % 3, friction);
-        let state = random.state(&stack, &["closed", "corner", "corner", "free"]);
-        let ground = [random.between(-8.0, 8.0), random.between(-3.0, 3.0)];
+        let stack = random_stack(&mut random, 1 + case % 3, friction);
+        let state = random_state(&mut random, &stack, &["closed", "corner", "corner", "free"]);
+        let ground = [random.within(-8.0, 8.0), random.within(-3.0, 3.0)];
         for solution in accelerations(&stack, &state, ground) {
             let moved = |t: f64| {
                 let mut moved = state.clone();
@@ -377,11 +359,11 @@ fn contacts_stay_closed_when_blocks_are_moved() {
 /// Newton's second law for each stack above an interface, from the reactions alone.
 #[test]
 fn reactions_carry_what_stands_above() {
-    let mut random = Random(11);
+    let mut random = Random::new(11);
     for case in 0..60 {
-        let stack = random.stack(3, 0.5);
-        let state = random.state(&stack, &["closed", "corner"]);
-        let ground = [random.between(-5.0, 5.0), random.between(-3.0, 3.0)];
+        let stack = random_stack(&mut random, 3, 0.5);
+        let state = random_state(&mut random, &stack, &["closed", "corner"]);
+        let ground = [random.within(-5.0, 5.0), random.within(-3.0, 3.0)];
         for solution in accelerations(&stack, &state, ground) {
             for interface in 0..3 {
                 let mut force: Vec2 = [0.0, 0.0];
@@ -403,10 +385,10 @@ fn reactions_carry_what_stands_above() {
 
 /// How many of 150 random problems of each kind have none, one or several solutions.
 fn counts(seed: u64, friction: f64, solve: impl Fn(&mut Random, &Stack) -> usize) -> [usize; 3] {
-    let mut random = Random(seed);
+    let mut random = Random::new(seed);
     let mut counts = [0; 3];
     for case in 0..150 {
-        let stack = random.stack(1 + case % 3, friction);
+        let stack = random_stack(&mut random, 1 + case % 3, friction);
         counts[solve(&mut random, &stack).min(2)] += 1;
     }
     counts
@@ -416,7 +398,7 @@ fn counts(seed: u64, friction: f64, solve: impl Fn(&mut Random, &Stack) -> usize
 fn impacts_have_an_answer_and_never_gain_energy() {
     for (seed, friction) in [(1, 0.05), (2, 0.3), (3, 0.5), (4, 0.8)] {
         let found = counts(seed, friction, |random, stack| {
-            let state = random.state(stack, &["closed", "corner", "lands", "lands", "free"]);
+            let state = random_state(random, stack, &["closed", "corner", "lands", "lands", "free"]);
             let before = state.kinetic_energy(stack);
             let solutions = impact(stack, &state);
             for solution in &solutions {
@@ -436,11 +418,11 @@ fn impacts_have_an_answer_and_never_gain_energy() {
 fn stacks_at_rest_have_one_answer() {
     for (seed, friction) in [(5, 0.05), (6, 0.3), (7, 0.5), (8, 0.8)] {
         let found = counts(seed, friction, |random, stack| {
-            let mut slide = || Joint::Closed { slide: random.between(-0.3, 0.3), slip: 0.0 };
+            let mut slide = || Joint::Closed { slide: random.within(-0.3, 0.3), slip: 0.0 };
             let joints: Vec<Joint> = stack.blocks.iter().map(|_| slide()).collect();
             let zeros = vec![0.0; joints.len()];
             let state = State::stacked(stack, &zeros, &zeros, &joints);
-            accelerations(stack, &state, [random.between(-9.0, 9.0), random.between(-5.0, 9.0)]).len()
+            accelerations(stack, &state, [random.within(-9.0, 9.0), random.within(-5.0, 9.0)]).len()
         });
         println!("stacks from rest at mu = {friction}: {found:?} with none, one, several answers");
         assert_eq!(found, [0, 150, 0], "mu = {friction}");
@@ -452,7 +434,7 @@ fn stacks_at_rest_have_one_answer() {
 #[test]
 fn coinciding_corners_have_one_answer_if_both_faces_hold() {
     let drum = Block::rectangle(0.4, 0.6, 900.0);
-    let mut random = Random(21);
+    let mut random = Random::new(21);
     let (mut impacts, mut forces) = ([[0; 3]; 2], [[0; 3]; 2]);
     for case in 0..200 {
         let friction = random.pick(&[0.2, 0.5, 0.8]);
@@ -461,17 +443,17 @@ fn coinciding_corners_have_one_answer_if_both_faces_hold() {
         let mut angle = 0.0;
         for _ in 0..stack.blocks.len() {
             let side = random.pick(&[Side::Left, Side::Right]);
-            let open = random.next() > 0.0;
-            angle += if open { side.sign() * random.between(0.02, 0.2) } else { 0.0 };
+            let open = random.happens(0.5);
+            angle += if open { side.sign() * random.within(0.02, 0.2) } else { 0.0 };
             theta.push(angle);
             omega.push(0.0);
             joints.push(if open { Joint::Corner { side, slide: 0.0, slip: 0.0 } } else { ALIGNED });
         }
         let state = State::stacked(&stack, &theta, &omega, &joints);
-        let ground = [random.between(-6.0, 6.0), random.between(-3.0, 3.0)];
+        let ground = [random.within(-6.0, 6.0), random.within(-3.0, 3.0)];
         let mut spinning = state.clone();
         for velocity in &mut spinning.velocity {
-            *velocity = [random.next(), random.next(), random.next()];
+            *velocity = [random.within(-1.0, 1.0), random.within(-1.0, 1.0), random.within(-1.0, 1.0)];
         }
         let before = spinning.kinetic_energy(&stack);
         for (rule, coinciding) in [Coinciding::BothFaces, Coinciding::EitherFace].into_iter().enumerate() {

@@ -12,6 +12,10 @@
 //! Velocities of the centroids and all derivatives of L come from forward-mode dual numbers: exact but for rounding, with no
 //! step to choose.
 
+#[path = "common/random.rs"]
+mod random;
+
+use random::Random;
 use rocking::dynamics::Ground;
 use rocking::pattern::Pattern;
 use rocking::{Block, Column, Mode};
@@ -229,25 +233,11 @@ impl Stack {
     }
 }
 
-/// SplitMix64 (Steele, Lea & Flood 2014).
-struct Random(u64);
-
-impl Random {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^= z >> 31;
-        low + (high - low) * (z >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn block(&mut self) -> Block {
-        let (half_width, half_height) = (self.between(0.05, 1.0), self.between(0.05, 1.0));
-        let mut block = Block::rectangle(half_width, half_height, self.between(0.2, 5.0));
-        block.inertia *= self.between(0.5, 1.5);
-        block
-    }
+fn random_block(random: &mut Random) -> Block {
+    let (half_width, half_height) = (random.within(0.05, 1.0), random.within(0.05, 1.0));
+    let mut block = Block::rectangle(half_width, half_height, random.within(0.2, 5.0));
+    block.inertia *= random.within(0.5, 1.5);
+    block
 }
 
 const SEED: u64 = 2001;
@@ -260,18 +250,18 @@ const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
 
 #[test]
 fn validation_spanos_accelerations_follow_from_the_values_of_t_and_v() {
-    let mut random = Random(SEED);
+    let mut random = Random::new(SEED);
     let (mut wider, mut worst, mut worst_relative) = (0, 0.0f64, 0.0f64);
     for case in 0..COLUMNS {
-        let blocks = [random.block(), random.block()];
+        let blocks = [random_block(&mut random), random_block(&mut random)];
         wider += usize::from(blocks[1].half_width() > blocks[0].half_width());
         let column = Column::new(blocks.to_vec(), 9.81).expect("positive sizes");
         let mut state = [0.0; 4];
         state
             .iter_mut()
             .enumerate()
-            .for_each(|(i, x)| *x = if i < 2 { random.between(-1.2, 1.2) } else { random.between(-6.0, 6.0) });
-        let ground = Ground { x: random.between(-20.0, 20.0), gravity: column.gravity() + random.between(-8.0, 15.0) };
+            .for_each(|(i, x)| *x = if i < 2 { random.within(-1.2, 1.2) } else { random.within(-6.0, 6.0) });
+        let ground = Ground { x: random.within(-20.0, 20.0), gravity: column.gravity() + random.within(-8.0, 15.0) };
         for ((rocking, _), mirrored) in PATTERNS.into_iter().flat_map(|pattern| [(pattern, false), (pattern, true)]) {
             let stack = Stack { blocks, rocking, mirrored };
             let dof = stack.dof();

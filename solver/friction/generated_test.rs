@@ -3,6 +3,7 @@
 use super::chain::{Chain, Rates};
 use super::generated::Generated;
 use super::joint::{Configuration, Face, Joint, Slip};
+use super::random::Random;
 use super::rows::{Coordinate, Rows, coordinates};
 use crate::column::{Block, Column, Shape};
 use crate::mechanics::dynamics::Ground;
@@ -10,22 +11,6 @@ use crate::mechanics::generated::{MAX_BLOCKS, moving};
 use crate::numerics::per_block::PerBlock;
 use rocking_codegen::pattern::Pattern;
 use std::collections::BTreeSet;
-
-/// xorshift64* (Vigna 2016), from -1 to 1.
-pub(super) struct Random(u64);
-
-impl Random {
-    pub fn seeded(seed: u64) -> Random {
-        Random(seed)
-    }
-
-    pub fn within(&mut self, a: f64, b: f64) -> f64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        a + (b - a) * (self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11) as f64 / (1u64 << 53) as f64
-    }
-}
 
 /// All states of an interface, with corners on either face.
 fn states(interface: usize) -> Vec<Joint> {
@@ -124,7 +109,7 @@ fn compare(random: &mut Random, column: &Column, configuration: &Configuration) 
 /// Blocks that are 1e4 times as light as those below: what a light block feels is no difference of what heavy ones feel.
 #[test]
 fn light_blocks_on_heavy_ones_lose_no_digits() {
-    let mut random = Random(0x51ED_270B);
+    let mut random = Random::new(0x51ED_270B);
     for joints in &combinations(3) {
         if coordinates(joints).iter().all(|coordinate| matches!(coordinate, Coordinate::Angle(_))) {
             continue;
@@ -143,7 +128,7 @@ fn light_blocks_on_heavy_ones_lose_no_digits() {
 
 #[test]
 fn generated_programs_give_the_accelerations_of_the_rows_in_all_states() {
-    let mut random = Random(0x9E37_79B9_7F4A_7C15);
+    let mut random = Random::new(0x9E37_79B9_7F4A_7C15);
     let (mut worst, mut seen) = (0.0f64, BTreeSet::new());
     for blocks in 1..=MAX_BLOCKS.min(3) {
         for joints in &combinations(blocks) {
@@ -196,7 +181,7 @@ fn few_translations(random: &mut Random, blocks: usize) -> Vec<Joint> {
 /// States that stick run on the equations of displaced blocks: pivots are the ends of the overlap of two faces.
 #[test]
 fn sticking_states_have_the_accelerations_of_the_rows() {
-    let mut random = Random(0x2545_F491_4F6C_DD1D);
+    let mut random = Random::new(0x2545_F491_4F6C_DD1D);
     let mut compared = 0;
     for trial in 0..2000 {
         let signs: Vec<i8> =
@@ -241,7 +226,7 @@ fn speed_of_the_programs_against_the_rows() {
         vec![corner(slides), corner(slides), corner(slides)],
         vec![Joint::Free, Joint::Free, Joint::Free],
     ];
-    let mut random = Random(0x9E37_79B9_7F4A_7C15);
+    let mut random = Random::new(0x9E37_79B9_7F4A_7C15);
     for joints in states.into_iter().filter(|joints| joints.len() <= MAX_BLOCKS) {
         let (checked, (angles, translations)) = difference(&mut random, &joints).expect("all programs of three blocks");
         assert!(checked < 1e-11);

@@ -26,6 +26,9 @@ mod generated_test;
 #[cfg(test)]
 mod oracle_test;
 #[cfg(test)]
+#[path = "../../tests/common/random.rs"]
+mod random;
+#[cfg(test)]
 mod series_test;
 
 use crate::column::Column;

@@ -4,37 +4,15 @@
 use super::chain::{Chain, Rates};
 use super::contact_problem::{Coefficients, Question, Touch};
 use super::joint::{Configuration, Face, Joint, Sign, Slip, face};
+use super::random::Random;
 use super::search::Search;
 use crate::column::{Block, Column, Shape};
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::per_block::PerBlock;
 use friction_oracle::{Coinciding, Side, Stack, State, accelerations, impact};
-use uniform::Uniform;
 
 #[path = "../../tests/common/friction_oracle.rs"]
 mod friction_oracle;
-
-/// Uniform numbers of a seeded generator.
-mod uniform {
-    /// xorshift64* (Vigna 2016).
-    pub struct Uniform(pub u64);
-
-    impl Uniform {
-        /// From `a` to `b`.
-        pub fn within(&mut self, a: f64, b: f64) -> f64 {
-            self.0 ^= self.0 >> 12;
-            self.0 ^= self.0 << 25;
-            self.0 ^= self.0 >> 27;
-            let bits = self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11;
-            a + (b - a) * bits as f64 / (1u64 << 53) as f64
-        }
-
-        /// Whether an event of this probability happens.
-        pub fn happens(&mut self, probability: f64) -> bool {
-            self.within(0.0, 1.0) < probability
-        }
-    }
-}
 
 /// A random stack of one to three blocks, as the search and as the oracle see it.
 struct Case {
@@ -46,10 +24,10 @@ struct Case {
     state: State,
 }
 
-fn case(random: &mut Uniform, strikes: bool) -> Case {
+fn case(random: &mut Random, strikes: bool) -> Case {
     let count = 1 + random.within(0.0, 3.0) as usize;
     let (equal, b, h) = (random.happens(0.3), random.within(0.2, 0.6), random.within(0.3, 1.0));
-    let block = |random: &mut Uniform| match equal {
+    let block = |random: &mut Random| match equal {
         true => Block::of_shape(Shape::Prism, [b, b], h, 4.0 * b * h),
         false => {
             let (bottom, half_height) = (b * random.within(0.7, 1.3), h * random.within(0.6, 1.4));
@@ -141,7 +119,7 @@ const NEAR: f64 = 1e-7;
 const NEAR_SAME: f64 = 1e-6;
 
 fn compare(seed: u64, cases: usize) {
-    let mut random = Uniform(seed);
+    let mut random = Random::new(seed);
     let (mut compared, mut several) = ([0; 2], [0; 2]);
     for index in 0..cases {
         let strikes = index % 2 == 1;
