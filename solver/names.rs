@@ -1,4 +1,4 @@
-//! Names of the values of an enum, in files and tables.
+//! Names of the values of an enum, in files and tables; lists of names in sentences.
 
 /// Gives an enum the list of its values, and their names: `ALL`, `NAMES`, `name` and `parse`.
 macro_rules! named {
@@ -29,3 +29,13 @@ macro_rules! named {
 }
 
 pub(crate) use named;
+
+/// Largest number of names listed in a sentence.
+const MOST_NAMES: usize = 5;
+
+/// The first names of a list, joined by commas, and the number of those left out.
+pub(crate) fn first_few(mut names: Vec<String>) -> String {
+    let more = names.len().saturating_sub(MOST_NAMES);
+    names.truncate(MOST_NAMES);
+    names.join(", ") + &if more > 0 { format!(" and {more} more") } else { String::new() }
+}

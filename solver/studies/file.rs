@@ -1,10 +1,11 @@
 //! Study files: a scene, records, levels of a measure, and limit states.
 
-use super::fragility::{FragilityOptions, Layout, MOST_REPLICATES, some_of};
+use super::fragility::{FragilityOptions, Layout, MOST_REPLICATES};
 use super::ida::{DEFAULT_FREE_SWING, Ida, IdaError, StudyRecord};
 use super::observation::{DEFAULT_STATES, LimitState, NoLimitState};
 use crate::column::Column;
 use crate::intensity::{Intensity, NAMES};
+use crate::names::first_few;
 use crate::scene::Scene;
 use crate::scene_file::excitation::{noise, spectrum, text_options};
 use crate::scene_file::fault::Fault;
@@ -263,7 +264,7 @@ fn components_of_folder(
         groups.push((group, components));
     }
     let Some((_, first)) = refused.first() else { return Ok(groups) };
-    let names = some_of(refused.iter().map(|(record, _)| record.display().to_string()).collect());
+    let names = first_few(refused.iter().map(|(record, _)| record.display().to_string()).collect());
     let problem = format!("{names}: no record that can be read (the first: {first})");
     Err(refuse(problem, "take them out of the folder, or name the records with `files`"))
 }

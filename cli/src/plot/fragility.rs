@@ -23,10 +23,6 @@ const POINTS: usize = 200;
 /// Smallest number of runs with a mark: one run would have its mark at 0 or 1.
 const FEWEST_RUNS: usize = 2;
 
-/// Largest number of groups of neighbouring levels into which the runs of a cloud are divided for their marks, and the smallest number of levels in one.
-const MOST_GROUPS: usize = 10;
-const LEAST_IN_GROUP: usize = 5;
-
 /// A figure of several limit states: `label` is the measure with its unit.
 pub fn fragility(label: &str, states: &[Fragility], paper: &Paper) -> Figure {
     let levels = states.iter().flat_map(|state| &state.counts).map(|count| count.level);
@@ -98,20 +94,14 @@ pub fn fragility(label: &str, states: &[Fragility], paper: &Paper) -> Figure {
 /// Level and raw share of the runs that reach a state: of each level of stripes, and of groups of equally many neighbouring levels of a cloud, at the
 /// mean level of their runs.
 fn raw_shares(state: &Fragility) -> Vec<Point> {
-    let known: Vec<&Count> = state.counts.iter().filter(|count| count.runs > 0).collect();
-    let groups = match state.layout {
-        Layout::Cloud => (known.len() / LEAST_IN_GROUP).clamp(1, MOST_GROUPS),
-        _ => known.len(),
-    };
-    let group = |number: usize| &known[number * known.len() / groups..(number + 1) * known.len() / groups];
-    let point = |counts: &[&Count]| {
+    let point = |counts: &Vec<&Count>| {
         let sum = |of: fn(&Count) -> f64| counts.iter().map(|count| of(count)).sum::<f64>();
         let runs = sum(|count| count.runs as f64);
         let is_enough = runs >= FEWEST_RUNS as f64;
         is_enough
             .then(|| [sum(|count| count.level * count.runs as f64) / runs, sum(|count| count.reached as f64) / runs])
     };
-    (0..groups).filter_map(|number| point(group(number))).collect()
+    state.groups().iter().filter_map(point).collect()
 }
 
 /// The mark of a state: square, diamond, triangle up, triangle down, in turn.
@@ -163,5 +153,7 @@ mod tests {
         assert_eq!(shares.iter().map(|[_, share]| *share).collect::<Vec<_>>()[4..8], [0.0, 0.5, 1.0, 1.0]);
         assert!((shares[1][0] - 0.095).abs() < 1e-12, "{shares:?}");
         assert_eq!(raw_shares(&cloud(1, 1, 0)), [[0.0; 2]; 0]);
+        // The groups are those of the goodness of fit, by their runs: five of eight levels with 27 runs, of which two have a single run.
+        assert_eq!(raw_shares(&cloud(8, 20, 4)).len(), 3);
     }
 }
