@@ -27,10 +27,10 @@ const SHORT: Duration = Duration::from_millis(2);
 /// Indices after which threads wait for each other. It bounds the results that wait in memory for a slow one before them.
 const PART: usize = 1 << 16;
 
-/// Makes a result for each index of `range` on the threads of `pool`; each thread makes its own with what `worker` returns. The calling thread is given
-/// the results in order by `take`, at the latest 0.1 s after they and those before them were made, or when the next run of the same thread ends. `take` is
-/// called as often where there are none.
-/// When it breaks, no further result is begun.
+/// Computes one result for each index of `range` on the threads of `pool`. `worker` is called once per thread and part of the range and returns the function
+/// with which that thread computes. The calling thread hands finished results to `take` in the order of their indices, some 0.1 s after they and those before
+/// them are finished at the latest, or when the next run of the same thread ends. Where none has finished it hands over an empty list as often. When `take`
+/// breaks, no further result is begun.
 ///
 /// ```
 /// use std::ops::ControlFlow;

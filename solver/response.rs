@@ -85,7 +85,8 @@ impl EventKind {
     }
 }
 
-/// A change of the pattern, or an impact. Patterns are signs per interface, base first.
+/// A change of the states of interfaces: an impact, an opening, the begin or end of a slide or of a flight, or the loss of a support. Patterns are signs
+/// per interface, base first.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Event {
@@ -93,7 +94,7 @@ pub struct Event {
     pub t: f64,
     /// What happened.
     pub kind: EventKind,
-    /// The interface that closed or opened, from 1; the lowest where several did.
+    /// The interface whose state changed, from 1; the lowest where several did.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub interface: Option<usize>,
     /// All interfaces that closed in the same instant, from 1, where there are several.

@@ -34,13 +34,13 @@ pub fn fill(folder: &Path, write: impl FnOnce(&mut BufWriter<&mut File>) -> Resu
     write(&mut writer)?;
     writer.flush()?;
     drop(writer);
-    share(&file)?;
+    make_readable(&file)?;
     Ok(file)
 }
 
 /// Makes a temporary file readable for everybody (on Unix): temporary files are created private.
 #[cfg_attr(not(unix), allow(unused_variables, reason = "permissions are those of the folder"))]
-pub fn share(file: &NamedTempFile) -> Result<()> {
+pub fn make_readable(file: &NamedTempFile) -> Result<()> {
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;

@@ -41,14 +41,14 @@ pub fn check(outputs: &[PathBuf], inputs: &[PathBuf]) -> Result<(), Failure> {
 }
 
 /// Refuses outputs of which one cannot be put in place, as a folder or a link that leads nowhere has its name. Their own folder need not be there yet.
-pub fn free(mut outputs: impl Iterator<Item = PathBuf>) -> Result<(), Failure> {
+pub fn check_writable(mut outputs: impl Iterator<Item = PathBuf>) -> Result<(), Failure> {
     let refused =
         outputs.find_map(|output| if output.exists() || output.is_symlink() { target(&output).err() } else { None });
     refused.map_or(Ok(()), Err)
 }
 
 /// Refuses outputs of which one is an input: it would be overwritten, or removed.
-pub fn spare(inputs: &[PathBuf], outputs: impl IntoIterator<Item = PathBuf>) -> Result<(), Failure> {
+pub fn check_not_inputs(inputs: &[PathBuf], outputs: impl IntoIterator<Item = PathBuf>) -> Result<(), Failure> {
     let lost = outputs.into_iter().find(|output| inputs.iter().any(|input| are_same(input, output)));
     lost.map_or(Ok(()), |output| Err(Failure::InUse(output)))
 }

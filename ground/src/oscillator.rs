@@ -94,7 +94,7 @@ impl Record {
         for ([a, b], h) in intervals {
             let interval = begin(state, a, (b - a) / h);
             let mut from = (0.0, state);
-            for time in looks(h, period / PARTS) {
+            for time in evaluation_times(h, period / PARTS) {
                 let to = (time, interval.state(time));
                 peak = peak.max(interval.peak([from.0, to.0], [from.1, to.1]));
                 from = to;
@@ -107,7 +107,7 @@ impl Record {
 
 /// Times within an interval of length `h` at which the response is evaluated, the end included. Near both ends of the interval they are at
 /// most `step` apart.
-fn looks(h: f64, step: f64) -> impl Iterator<Item = f64> {
+fn evaluation_times(h: f64, step: f64) -> impl Iterator<Item = f64> {
     let count = (h / step).ceil().max(1.0);
     let near = SEARCHED_PERIODS * PARTS;
     let is_long = count > 2.0 * near;

@@ -145,7 +145,7 @@ impl Scene {
         &self.origin.text
     }
 
-    /// The scene as the solver has it.
+    /// The scene as JSON, defaults filled in.
     fn json(&self) -> PyResult<String> {
         serde_json::to_string(&*self.scene).map_err(error::unwritable)
     }

@@ -21,7 +21,7 @@ impl Corner {
         faces.iter().map(move |&face| Corner { interface, side, face })
     }
 
-    /// All corners of an interface that may land on a face of the other block.
+    /// Every corner at an interface that may land on the face of the other block, on both sides.
     pub fn all(interface: usize) -> impl Iterator<Item = Corner> {
         [1, -1].into_iter().flat_map(move |side| Corner::of_side(interface, side))
     }

@@ -162,8 +162,8 @@ impl<'s> SeriesSpan<'s> {
         }
     }
 
-    /// Distance of the resultant at a closed contact from the end of a side, times the normal force: first for the end of the upper face, then of the
-    /// lower one.
+    /// Visits the moment of the resultant of a closed contact about its end on a side: about the edge of the upper face, then, above the base, about that of
+    /// the lower face.
     fn tip(&self, i: usize, side: Sign, visit: &mut dyn FnMut(&Powers)) {
         let blocks = self.column.blocks();
         let (side, series) = (f64::from(side), self.series);

@@ -152,12 +152,12 @@ impl<'a> Search<'a> {
 
     /// The states with accelerations that are admissible beside `excluded`. `None` if there are none, or too many combinations.
     pub fn solve_otherwise(&self, excluded: &[Joint]) -> Option<Solution> {
-        self.tried(&self.first(), |joints, _| joints != excluded)
+        self.best_of_all(&self.first(), |joints, _| joints != excluded)
     }
 
     /// The states that follow; the search begins with the states `first`. `None` if no states are admissible.
     pub fn solve_from(&self, first: PerBlock<Joint>) -> Option<Solution> {
-        self.found_from(first).map(|found| self.with_fewest_slides(found))
+        self.solve_with_slides(first).map(|found| self.with_fewest_slides(found))
     }
 
     /// Where kinetic friction is less than static friction, contacts may slide together of which one alone would do: the others stick, as far as the states
@@ -196,18 +196,18 @@ impl<'a> Search<'a> {
     }
 
     /// The states that follow, with as many slides as the search comes to.
-    fn found_from(&self, first: PerBlock<Joint>) -> Option<Solution> {
-        let guided = self.guided(first.clone());
+    fn solve_with_slides(&self, first: PerBlock<Joint>) -> Option<Solution> {
+        let found = self.follow_violations(first.clone());
         let largest = self.friction.fixed.iter().chain(&self.friction.kinetic).fold(0.0f64, |most, mu| most.max(*mu));
         let may_be_ambiguous = largest > AMBIGUOUS_FROM && first.len() <= MOST_BLOCKS_TRIED;
-        match guided {
+        match found {
             Some(found) if found.joints.iter().all(|joint| joint.sticks()) || !may_be_ambiguous => Some(found),
-            _ if may_be_ambiguous => self.tried(&first, |_, _| true),
+            _ if may_be_ambiguous => self.best_of_all(&first, |_, _| true),
             _ => {
                 let starts = [&self.friction.fixed, &self.friction.kinetic].into_iter();
                 let mut complementary = starts.filter_map(|cones| self.complementary(cones));
-                let found = complementary.find_map(|joints| self.guided(joints));
-                found.or_else(|| self.tried(&first, |_, _| true))
+                let found = complementary.find_map(|joints| self.follow_violations(joints));
+                found.or_else(|| self.best_of_all(&first, |_, _| true))
             }
         }
     }
@@ -283,7 +283,7 @@ impl<'a> Search<'a> {
 
     /// Changes states as violated conditions name them, until none is violated. `None` where this goes in circles, takes too many rounds, or comes to
     /// states without an answer.
-    fn guided(&self, first: PerBlock<Joint>) -> Option<Solution> {
+    fn follow_violations(&self, first: PerBlock<Joint>) -> Option<Solution> {
         let mut visited: Vec<PerBlock<Joint>> = Vec::new();
         let mut joints = first;
         for _ in 0..8 * joints.len() + 8 {
@@ -310,9 +310,9 @@ impl<'a> Search<'a> {
         None
     }
 
-    /// The best of all admissible combinations that are wanted: fewest changes against `first` (not counted in an impact), then least energy of the
+    /// The best of all admissible combinations that `is_accepted` accepts: fewest changes against `first` (not counted in an impact), then least energy of the
     /// change. `None` if there is none, or with more than [`MOST_TRIED`] combinations.
-    fn tried(&self, first: &[Joint], is_wanted: impl Fn(&[Joint], &Answer) -> bool) -> Option<Solution> {
+    fn best_of_all(&self, first: &[Joint], is_accepted: impl Fn(&[Joint], &Answer) -> bool) -> Option<Solution> {
         let choices: Vec<PerBlock<Joint>> = (0..first.len()).map(|i| self.choices(i)).collect();
         let count = choices.iter().fold(1usize, |count, list| count.saturating_mul(list.len()));
         if count > MOST_TRIED {
@@ -331,7 +331,7 @@ impl<'a> Search<'a> {
         for code in 0..count {
             let joints = combination(code);
             let Some(answer) = self.answer(&joints) else { continue };
-            if is_wanted(&joints, &answer) && self.is_admissible(&joints, &answer, self.slack) {
+            if is_accepted(&joints, &answer) && self.is_admissible(&joints, &answer, self.slack) {
                 let changes = if matches!(self.question, Question::Impact(_)) { 0 } else { changes(&joints) };
                 let energy = answer.change.energy(self.column);
                 admissible.push((changes, energy, joints, answer));

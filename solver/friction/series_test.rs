@@ -74,7 +74,10 @@ fn series_satisfy_the_rows_at_the_start_of_a_step_and_inside_it() {
         while series.orders() < ORDERS {
             series.extend().expect("finite");
         }
-        for (t, worst) in [0.0, STEP].into_iter().zip(&mut worst) {
+        // Accelerations are large near a jam, where the series converges over shorter times.
+        let largest =
+            on_series(&series, &start, &coordinates, 0.0).1.iter().fold(GROUND[1][0], |most, a| most.max(a.abs()));
+        for (t, worst) in [0.0, STEP * GROUND[1][0] / largest].into_iter().zip(&mut worst) {
             let (now, second) = on_series(&series, &start, &coordinates, t);
             let answer = rows(&column, &now, &kinetic, t);
             let scale = second.iter().fold(GROUND[1][0], |most, a| most.max(a.abs()));
@@ -107,8 +110,8 @@ fn series_satisfy_the_rows_at_the_start_of_a_step_and_inside_it() {
         }
     }
     eprintln!("largest differences {worst:?}");
-    // A thousand roundings at the start: the rows may be far from regular. Inside, the truncation as well. Measured: 4e-14.
-    assert!(worst[0] < 1e-12 && worst[1] < 1e-10, "{worst:?}");
+    // A thousand roundings: the rows may be far from regular. Measured: 1.6e-13.
+    assert!(worst.iter().all(|worst| *worst < 1e-12), "{worst:?}");
 }
 
 #[test]

@@ -59,8 +59,8 @@ impl Harmonics {
         self.start() + rise.fast_min(f64x2::ZERO) - f64x2::splat(0.5 * way * way) * bend
     }
 
-    /// First place on a path of this angle where a margin falls to zero, 0 to 1, and the margin's slope there, per path; `None` if neither falls
-    /// to zero. The error [`Critical`] if rounding decides whether a margin is above zero at the start.
+    /// First place on a path of this angle, 0 to 1, where the margin of either corner falls to zero, and the slope of that margin over the place; `None` if
+    /// both stay positive. The error [`Critical`] if rounding decides whether a margin is above zero at the start.
     pub fn opening(&self, way: f64) -> Result<Option<[f64; 2]>, Critical> {
         let scale = [self.first, self.second].as_flattened().iter().fold(self.mean.abs(), |sum, part| sum + part.abs());
         let clear = self.start() - f64x2::splat(SHARE_OF_ROUNDING) * scale;

@@ -86,8 +86,8 @@ impl SlidingReport {
         self.way_slid[interface] > 0.0 || self.flights[interface] > 0
     }
 
-    /// Error of the energy balance, relative to the work of the ground or, where that is less than a millionth of the largest term, to this term; `None`
-    /// where nothing slid or flew, or only the outcome was wanted.
+    /// Residual of the energy balance over the work of the ground; over the largest term where the work of the ground is less than a millionth of it. `None`
+    /// where nothing slid or flew, or where works were not recorded, as in runs for their outcome only.
     pub fn balance(&self) -> Option<f64> {
         let SlidingReport { ground_work, friction_work, impact_losses, ground_exchange, energy_change, .. } = *self;
         let open = ground_work + friction_work - impact_losses - energy_change;

@@ -27,11 +27,11 @@ impl Phase {
             self.integrator.start_slope(self.t, &mut self.slope);
             let accelerations = &self.slope[self.linkage.dof..];
             let ground = self.integrator.ground(self.t);
-            let verge = match released.iter().any(|(other, _)| *other == interface) {
+            let threshold = match released.iter().any(|(other, _)| *other == interface) {
                 true => critical_acceleration(column, accelerations, ground),
                 false => rounding_acceleration(column, accelerations, ground),
             };
-            across.of(accelerations).abs() <= verge
+            across.of(accelerations).abs() <= threshold
         };
         for gap in self.gaps.iter_mut() {
             let across = gap.across;

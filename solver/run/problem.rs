@@ -40,7 +40,7 @@ pub struct Skips {
     pub modes: bool,
     /// Terms of a vertical ground motion that does not exist.
     pub vertical: bool,
-    /// Contact forces that nobody reads.
+    /// Contact forces that are not read.
     pub forces: bool,
     /// The time after the outcome is certain, where nothing else is requested.
     pub certainty: bool,

@@ -12,7 +12,7 @@ use crate::numerics::per_block::PerBlock;
 use crate::response::Work;
 use rocking_ground::Segment;
 
-/// Number of places per radian of the ground motion at which contact forces at rest are recorded, their crests beside these places apart. A crest is
+/// Number of times per radian of the ground motion at which contact forces at rest are recorded. Crests of the forces are recorded in addition; one is
 /// missed only where [`LEAST_AND_MOST_PLACES`] limits the number of places: in a rest of 1,300 cycles or more.
 const PLACES_PER_RADIAN: f64 = 8.0;
 

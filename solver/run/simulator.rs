@@ -38,7 +38,7 @@ pub fn simulate(scene: &Scene) -> Result<Response, SolveError> {
     simulate_observed(scene, |_| ControlFlow::Continue(()))
 }
 
-/// Runs a scene and reports the time `[s]` to `progress` after every event and every thousand steps; [`ControlFlow::Break`] cancels the run.
+/// Runs a scene and reports the time `[s]` to `progress` after every event and every 1024 stretches; [`ControlFlow::Break`] cancels the run.
 ///
 /// # Errors
 /// As [`simulate`]; [`SolveError::Cancelled`].

@@ -84,7 +84,7 @@ impl Hold {
     }
 }
 
-/// What the integrator has learnt of step lengths.
+/// Step length and order of series that the steps so far suggest.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Pace {
     /// Step length suggested by the steps before `[s]`.

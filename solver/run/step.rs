@@ -47,7 +47,7 @@ pub(super) const PANELS_PER_TURN: f64 = 20.0;
 /// Panels per radian of the ground motion.
 const PANELS_PER_RADIAN: f64 = 2.0;
 
-/// Largest number of panels of a step. Only steps of the loosest tolerances would need more; their forces are not fully resolved.
+/// Largest number of panels of a step. It is reached at the loosest tolerances only, where forces are then not fully resolved.
 const MOST_PANELS: f64 = 64.0;
 
 impl Phase {

@@ -90,7 +90,7 @@ pub(crate) trait Inside {
 pub(crate) struct Panel<'a> {
     /// At start, middle and end.
     pub forces: [&'a [ContactForce]; 3],
-    /// Times of start and end `[s]`; evaluated where somebody asks.
+    /// Times of start and end `[s]`; evaluated on demand.
     pub times: &'a dyn Fn() -> [f64; 2],
     /// How often the motion passes the panel: a swing goes out and comes back.
     pub weight: f64,

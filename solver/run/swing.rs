@@ -88,7 +88,8 @@ impl Phase {
         Found::Stretch(ended)
     }
 
-    /// The swing from the start of the stretch, and how it ends if no interface opens.
+    /// The swing from the start of the stretch, and how it ends if no interface opens. `None` where the closed form does not apply: the gap does not open, it
+    /// lands beyond the balance, or the swing has no end.
     fn course(&self, problem: &Problem, pendulum: Pendulum) -> Option<(Course, End)> {
         let gap = self.gaps[0];
         let (sign, x) = (gap.across.sign, self.integrator.start());

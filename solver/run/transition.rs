@@ -11,8 +11,8 @@ use crate::numerics::per_block::{PerBlock, Size, for_size};
 use crate::response::EventKind;
 use rocking_codegen::pattern::{Interface, Pattern};
 
-/// Limit of the events in one instant, divided by the number of blocks plus one. At the limit, [`break_cycle`] closes open interfaces that
-/// have no gap. A lower limit would cut short instants at which several interfaces are critical.
+/// Limit of the events in one instant, divided by the number of blocks plus one: at it, at one and a half and beyond twice of it [`break_cycle`] acts. A lower
+/// limit would cut short instants at which several interfaces are critical.
 const EVENTS_AT_ONCE: usize = 8;
 
 /// Gaps of given angles below this, relative to the angles, are rounding (0.1 + 0.2 against 0.3) and count as closed.
@@ -148,8 +148,8 @@ fn impact(problem: &Problem, before: &State, closing: &[usize]) -> Result<Transi
     }
 }
 
-/// Closes interfaces that opened while critical and are driven back before they have moved. This is no impact; other interfaces that opened in the
-/// same instant stay open.
+/// Closes interfaces that opened while critical and are driven back before they have moved. It is recorded as an impact without impulses; other interfaces
+/// that opened in the same instant stay open.
 #[cold]
 fn withdraw(before: &State, closing: &[usize]) -> Transition {
     let mut pattern = before.pattern.clone();
@@ -204,7 +204,11 @@ fn most_at_once(state: &State) -> usize {
 }
 
 /// The transition that breaks a cycle of events in one instant: open interfaces without a gap close, momentum conserved. It counts as a separation.
-/// `None` unless the number of events is just one of the two at which this is tried: first for interfaces at rest, then for all without a gap.
+/// `None` unless the number of events is just one of the two at which this is tried: at the limit for interfaces at rest, at one and a half of it for all
+/// without a gap.
+///
+/// # Errors
+/// [`SolveError::Stalled`] beyond twice the limit.
 #[cold]
 pub(crate) fn break_cycle(problem: &Problem, state: &State) -> Result<Option<Transition>, SolveError> {
     let (events, most) = (state.contact.events_at_once, most_at_once(state));

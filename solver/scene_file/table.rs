@@ -179,7 +179,7 @@ impl Table {
         self.entries.iter().map(|entry| entry.key.to_string()).collect()
     }
 
-    /// A number, a text, or a list of these, as a list; `None` if the key is not given or is that of a table.
+    /// The value as a list: a number or a text alone gives a list of one. `None` if the key is not given or is that of a table.
     pub fn settings(&mut self, key: &str) -> Result<Option<Vec<Setting>>, Wrong> {
         let single = |value: &Value| match value {
             Value::Number(number) if number.is_finite() => Some(Setting::Number(*number)),
@@ -429,7 +429,7 @@ impl Table {
         items.iter().enumerate().map(as_table).collect::<Result<Vec<Table>, Wrong>>().map(Some)
     }
 
-    /// Refuses keys that nobody asked for.
+    /// Refuses keys that were never requested.
     pub fn close(&self) -> Result<(), Wrong> {
         ASKED.with_borrow_mut(|asked| {
             if let Some(asked) = asked {

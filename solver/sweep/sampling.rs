@@ -70,7 +70,7 @@ fn mixed(number: u64) -> u64 {
     z ^ (z >> 31)
 }
 
-/// Rounds of the Feistel network. Four make a permutation that looks random (Luby & Rackoff 1988); two more are added as the halves have few bits.
+/// Rounds of the Feistel network. Four make a permutation that looks random (Luby & Rackoff 1988); two more because the halves are short.
 const ROUNDS: u64 = 6;
 
 /// Image of a number below `count` in a random permutation of these numbers. A Feistel network permutes the numbers below a power of four that is at

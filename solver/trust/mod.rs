@@ -135,7 +135,7 @@ pub fn follow(scene: &Scene) -> Result<(Response, Trust), SolveError> {
     Ok((response, trust))
 }
 
-/// Runs the companions of a finished run. On one thread this takes some ten times as long as the run, and up to twenty with the fold; companions run
+/// Runs the companions of a finished run. On one thread this takes 7 to 30 times as long as the run; companions run
 /// on all threads of the present rayon pool.
 ///
 /// # Errors

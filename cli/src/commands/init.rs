@@ -14,7 +14,7 @@ pub fn init(file: &Path, blocks: usize, record: Option<&Path>, force: bool) -> R
     if file.exists() && !force {
         return Err(Failure::Taken(file.into()));
     }
-    output::spare(&record.map(PathBuf::from).into_iter().collect::<Vec<_>>(), [file.into()])?;
+    output::check_not_inputs(&record.map(PathBuf::from).into_iter().collect::<Vec<_>>(), [file.into()])?;
     let record = record.map(|record| NamedRecord::new(file, record)).transpose()?;
     output::file(file, scene(blocks, record.as_ref()))?;
     let lacking =

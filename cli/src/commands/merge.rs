@@ -6,7 +6,7 @@
 use crate::commands::sweep::{self, OUTCOME, TIME, TableDigest, columns, digest_file, inputs_of};
 use crate::commands::{fractiles, probability};
 use crate::error::{Failure, at};
-use crate::files::{folder_of, share};
+use crate::files::{folder_of, make_readable};
 use crate::output;
 use crate::table::column::{Column, Rows};
 #[cfg(feature = "parquet")]
@@ -63,7 +63,7 @@ pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(),
         Some(expected) => format!("all points of {}", shown(expected.file)),
         None => "--sweep FILE would tell whether points after them are missing".into(),
     };
-    share(&merged).map_err(failed)?;
+    make_readable(&merged).map_err(failed)?;
     merged.persist(target).map_err(|error| failed(error.error))?;
     let mut report = format!("wrote {rows} row(s) of {} table(s) to {}: {report}\n", tables.len(), shown(out));
     if let Some(ExpectedSweep { sweep, .. }) = &expected {

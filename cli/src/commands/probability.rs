@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 /// Confidence of the intervals.
 const CONFIDENCE: f64 = 0.95;
 
-/// Combinations that are printed; all are in the table.
+/// Largest number of combinations printed to the terminal; the table has all of them.
 const PRINTED: usize = 10;
 
 /// The probability that the column overturns or collapses, at one combination of the axes that are no distributions.

@@ -15,7 +15,7 @@ pub const NAME: &str = "report.html";
 pub fn report(folder: &Path, file: Option<&Path>) -> Result<(), Failure> {
     let file = file.map_or_else(|| folder.join(NAME), Path::to_path_buf);
     let of_run = FILES.into_iter().chain([COMPANIONS]).map(|name| folder.join(name)).collect::<Vec<_>>();
-    output::spare(&of_run, [file.clone()])?;
+    output::check_not_inputs(&of_run, [file.clone()])?;
     output::file(&file, report::page(&Results::read(folder)?))?;
     print(&format!("wrote {}\n", shown(&file)))
 }

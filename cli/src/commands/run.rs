@@ -37,9 +37,9 @@ pub fn run(request: &Run) -> Result<(), Failure> {
     let of_run = FILES.into_iter().chain([COMPANIONS]).map(String::from);
     let touched: Vec<PathBuf> = of_run.chain(outdated.iter().cloned()).map(|name| out.join(name)).collect();
     let figures = NAMES.iter().filter(|_| request.plots).map(|name| out.join(format!("{name}.svg")));
-    output::free(figures.chain(request.report.then(|| out.join(report::NAME))))?;
+    output::check_writable(figures.chain(request.report.then(|| out.join(report::NAME))))?;
     let inputs: Vec<PathBuf> = template.records().into_iter().chain([path.clone()]).collect();
-    output::spare(&inputs, touched)?;
+    output::check_not_inputs(&inputs, touched)?;
     let bar = Progress::of_run(scene.options.t_end, request.quiet);
     let failed = |error| Failure::Solve { scene: path.clone(), out: out.clone(), error };
     let start = Instant::now();

@@ -211,7 +211,7 @@ pub fn digest_file(table: &Path) -> PathBuf {
     table.with_file_name(format!("{name}.digest"))
 }
 
-/// The digest of a table: of this version of the program, and of all that decides the rows.
+/// Digest of everything that determines the rows of a table, the version of the program included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TableDigest(Digest);
 

@@ -66,7 +66,7 @@ pub(super) struct StatedPeak {
 pub(super) struct PeakBounds {
     /// Up to here it counts as rounding or slight processing, without a warning.
     pub rounding: f64,
-    /// Beyond this the file is damaged, or in another unit than it says.
+    /// Beyond this the file is damaged, or its unit is not the stated one.
     pub damage: f64,
 }
 

@@ -24,10 +24,10 @@ use crate::unit::AccelerationUnit;
 /// Share of `dt` by which a row may be off the grid: a time column may be rounded to its last printed digit.
 const GRID_TOLERANCE: f64 = 0.05;
 
-/// The same where the interval is given as well: times may be rounded to fewer digits.
+/// Share of `dt` by which a row may be off the grid where `dt` is given as well: times may be rounded to fewer digits.
 const ROUNDED_TOLERANCE: f64 = 0.5;
 
-/// Largest relative difference between the usual step of times that drift and the given interval.
+/// Largest relative difference between the median step and the given `dt` at which times that drift are accepted.
 const DRIFT_TOLERANCE: f64 = 1e-4;
 
 /// Relative accuracy of times that were computed as multiples of the first interval.

@@ -27,7 +27,7 @@ impl Search<'_> {
         // Where the rows of the present states are singular, rounding gives these states a change of any size.
         let is_other = |joints: &[Joint], answer: &Answer| joints != excluded && changes(answer);
         let first = self.first();
-        if let Some(found) = self.tried(&first, is_other) {
+        if let Some(found) = self.best_of_all(&first, is_other) {
             return Some(found);
         }
         // No combination was found, or there are too many: search from all that sticks, then from each slide at rest while the other slides go on.
@@ -45,14 +45,14 @@ impl Search<'_> {
         };
         let resting = (0..first.len()).filter(|interface| sliding(*interface).is_some());
         let starts = std::iter::once(first.clone()).chain(resting.map(with_one_at_rest));
-        let solutions = starts.filter_map(|start| self.guided(start));
+        let solutions = starts.filter_map(|start| self.follow_violations(start));
         let solution = solutions.filter(|found| is_other(&found.joints, &found.answer)).min_by(|a, b| {
             let energies = [a, b].map(|solution| solution.answer.change.energy(self.column));
             energies[0].total_cmp(&energies[1])
         });
         let approaching = || {
             let states = APPROACH_SHARES.iter().filter_map(|share| self.states_if_approaching(share * self.linear));
-            let mut solutions = states.filter_map(|states| self.guided(states));
+            let mut solutions = states.filter_map(|states| self.follow_violations(states));
             solutions.find(|found| is_other(&found.joints, &found.answer))
         };
         solution.or_else(approaching)

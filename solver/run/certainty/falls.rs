@@ -153,9 +153,9 @@ mod tests {
             latest[0]
         };
         // From upright the block needs ½ ω² = p² (1 - cos α) on a ground at rest; a push adds p²/g times itself to ω.
-        let verge = P * (2.0 * (1.0 - balance.cos())).sqrt();
+        let threshold = P * (2.0 * (1.0 - balance.cos())).sqrt();
         for push in [0.0, 0.1] {
-            let needed = verge + P * P / GRAVITY * push;
+            let needed = threshold + P * P / GRAVITY * push;
             assert_eq!(latest(0.0, needed * (1.0 - 1e-9), 0.0, push), None);
             let [slow, fast] = [1.0 + 1e-9, 1.1].map(|share| latest(0.0, needed * share, 0.0, push).expect("over it"));
             assert!(slow > 3.0 * fast);

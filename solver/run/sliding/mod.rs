@@ -85,7 +85,7 @@ pub(super) fn run(
         recorder.transition(&at, &next);
         let stop = next
             .stop
-            .or_else(|| simultaneous.goes_in_circles(&at, least_hop(problem, &at)).then_some(RunEnd::Undetermined));
+            .or_else(|| simultaneous.counts_too_many(&at, least_hop(problem, &at)).then_some(RunEnd::Undetermined));
         at.configuration = next.after;
         if let Some(stop) = stop {
             return Ok(recorder.finish(at, stop, mover.work));
@@ -149,8 +149,8 @@ impl SimultaneousEvents {
         self.count > 0 && at.t - self.first <= instant
     }
 
-    /// Counts an event; returns whether the events of one instant are so many that they go in a cycle.
-    fn goes_in_circles(&mut self, at: &SlidingState, hop: f64) -> bool {
+    /// Counts an event; `true` once the events of one instant are so many that they go in a cycle: more than [`MOST_EVENTS_AT_ONCE`] per interface and one.
+    fn counts_too_many(&mut self, at: &SlidingState, hop: f64) -> bool {
         *self = if self.includes(at, hop) {
             SimultaneousEvents { count: self.count + 1, ..*self }
         } else {

@@ -2,9 +2,9 @@
 //! those of `explicit_steps.rs` or `series_steps.rs`.
 
 use super::explicit_steps::ExplicitSteps;
-use super::recorder::{Moments, SlidingRecorder};
+use super::recorder::{SlidingRecorder, Snapshots};
 use super::series_steps::SeriesSteps;
-use super::smooth::{Moment, Smooth};
+use super::smooth::{Smooth, Snapshot};
 use super::state::{RunEnd, SlidingEnded, SlidingState};
 use super::step::Step;
 use super::steps::{StepStart, Steps};
@@ -41,16 +41,16 @@ pub struct Mover<'p> {
 /// A column at rest.
 struct Resting<'p> {
     smooth: Smooth<'p>,
-    moment: Option<Moment<'p>>,
+    snapshot: Option<Snapshot<'p>>,
 }
 
-impl<'p> Moments<'p> for Resting<'p> {
-    fn moment(&mut self, t: f64, needs_forces: bool) -> &Moment<'p> {
-        let moment = self.moment.insert(self.smooth.moment(self.smooth.base.clone()));
+impl<'p> Snapshots<'p> for Resting<'p> {
+    fn snapshot(&mut self, t: f64, needs_forces: bool) -> &Snapshot<'p> {
+        let snapshot = self.snapshot.insert(self.smooth.snapshot(self.smooth.base.clone()));
         if needs_forces {
-            self.smooth.answer(t, moment);
+            self.smooth.answer(t, snapshot);
         }
-        moment
+        snapshot
     }
 }
 
@@ -139,7 +139,7 @@ impl<'p> Mover<'p> {
         let ground = self.problem.ground;
         let starts =
             |segment: usize, t: f64| start_from_rest::first_start(&column, &self.friction.fixed, &ground[segment], t);
-        let mut rest = Resting { smooth: self.smooth(from), moment: None };
+        let mut rest = Resting { smooth: self.smooth(from), snapshot: None };
         let (mut t, mut segment) = (from.t, from.segment);
         let ended = loop {
             self.work.rest_stretches += 1;

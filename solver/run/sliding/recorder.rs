@@ -1,7 +1,7 @@
 //! The recorder of a run with friction: the only writer of rows, events, peaks, forces, work and times.
 
 use super::contacts::{self, slide};
-use super::smooth::{Moment, Smooth};
+use super::smooth::{Smooth, Snapshot};
 use super::state::{RunEnd, SlidingState};
 use super::transition::{Change, SlidingTransition};
 use crate::column::Column;
@@ -24,13 +24,13 @@ use rocking_ground::Segment;
 use std::collections::BTreeMap;
 
 /// The inside of a stretch.
-pub trait Moments<'p> {
+pub trait Snapshots<'p> {
     /// The column at a time `[s]`, with accelerations and forces where they are needed.
-    fn moment(&mut self, t: f64, needs_forces: bool) -> &Moment<'p>;
+    fn snapshot(&mut self, t: f64, needs_forces: bool) -> &Snapshot<'p>;
 }
 
 /// The inside of a step.
-pub trait StepInside<'p>: Moments<'p> {
+pub trait StepInside<'p>: Snapshots<'p> {
     /// Raises the largest magnitudes of the blocks' angles `[rad]` by those up to a time `[s]`.
     fn peaks(&mut self, until: f64, peaks: &mut [f64]);
 
@@ -232,8 +232,8 @@ impl<'p> SlidingRecorder<'p> {
         let sticking =
             |pattern: &Pattern, theta: &[f64], omega: &[f64]| Configuration::sticking(column, pattern, theta, omega);
         for sample in &response.samples {
-            let moment = self.moment(sample.t, sticking(&sample.pattern, &sample.theta, &sample.omega));
-            self.row(sample.t, &moment);
+            let snapshot = self.snapshot(sample.t, sticking(&sample.pattern, &sample.theta, &sample.omega));
+            self.row(sample.t, &snapshot);
         }
         let mut lost = 0.0;
         self.events.reserve(response.events.len());
@@ -267,15 +267,15 @@ impl<'p> SlidingRecorder<'p> {
         }
     }
 
-    /// A moment of a column in which everything sticks, with its accelerations and forces.
-    fn moment(&mut self, t: f64, configuration: Configuration) -> Moment<'p> {
+    /// A snapshot of a column in which everything sticks, with its accelerations and forces.
+    fn snapshot(&mut self, t: f64, configuration: Configuration) -> Snapshot<'p> {
         let segment = self.segment_of_row(t);
         let from = SlidingState { t, segment: 0, configuration };
         let mut smooth = Smooth::new(self.problem, self.friction, &from);
         smooth.segment = segment;
-        let mut moment = smooth.moment(from.configuration);
-        smooth.answer(t, &mut moment);
-        moment
+        let mut snapshot = smooth.snapshot(from.configuration);
+        smooth.answer(t, &mut snapshot);
+        snapshot
     }
 
     /// Records that a stretch with constant states has ended: times in modes and contacts, and slides.
@@ -308,12 +308,12 @@ impl<'p> SlidingRecorder<'p> {
     }
 
     /// Records rows and forces of a span at rest, of the column with its slides: nothing moves, and nothing does work.
-    pub fn rest(&mut self, column: &Column, segment: usize, [from, until]: [f64; 2], inside: &mut dyn Moments<'p>) {
+    pub fn rest(&mut self, column: &Column, segment: usize, [from, until]: [f64; 2], inside: &mut dyn Snapshots<'p>) {
         if !self.problem.is_recorded() {
             return;
         }
         while let Some(t) = self.next_row().filter(|t| *t < until) {
-            self.row(t, inside.moment(t.max(from), true));
+            self.row(t, inside.snapshot(t.max(from), true));
         }
         rest::visit_forces(column, &self.problem.ground[segment], [from, until], &mut |forces, _| {
             forces.iter().enumerate().for_each(|(interface, contact)| self.contact(interface, contact));
@@ -335,7 +335,7 @@ impl<'p> SlidingRecorder<'p> {
             return;
         }
         while let Some(t) = self.next_row().filter(|t| *t < until) {
-            self.row(t, inside.moment(t.max(from), true));
+            self.row(t, inside.snapshot(t.max(from), true));
         }
         inside.peaks(until, &mut self.peak_theta);
         inside.nodes(until, &mut |node| self.node(segment, joints, node));
@@ -393,8 +393,8 @@ impl<'p> SlidingRecorder<'p> {
         &ground[self.sample_segment]
     }
 
-    fn row(&mut self, t: f64, moment: &Moment) {
-        let (Moment { configuration: now, answer, .. }, chain) = (moment, moment.chain());
+    fn row(&mut self, t: f64, snapshot: &Snapshot) {
+        let (Snapshot { configuration: now, answer, .. }, chain) = (snapshot, snapshot.chain());
         let segment = self.segment_of_row(t);
         let Segment { horizontal, vertical, .. } = segment;
         let gap = |interface: usize| match now.joints[interface] {
@@ -455,20 +455,20 @@ impl<'p> SlidingRecorder<'p> {
         let status = stop.status();
         self.work.ended_early = status == StopReason::AtRest;
         let mut smooth = Smooth::new(self.problem, self.friction, &end);
-        let mut moment = smooth.moment(end.configuration);
+        let mut snapshot = smooth.snapshot(end.configuration);
         // A run that ends at its start still has the row of its start.
         if self.samples.is_empty() && self.next_row() == Some(0.0) {
-            smooth.answer(end.t, &mut moment);
-            self.row(end.t, &moment);
+            smooth.answer(end.t, &mut snapshot);
+            self.row(end.t, &snapshot);
         }
         if !matches!(status, StopReason::Overturned | StopReason::Collapsed | StopReason::Undetermined) {
             while let Some(t) = self.next_row() {
-                (moment.answer, smooth.segment) = (None, self.segment_of_row(t));
-                smooth.answer(t, &mut moment);
-                self.row(t, &moment);
+                (snapshot.answer, smooth.segment) = (None, self.segment_of_row(t));
+                smooth.answer(t, &mut snapshot);
+                self.row(t, &snapshot);
             }
         }
-        let (now, chain) = (&moment.configuration, moment.chain());
+        let (now, chain) = (&snapshot.configuration, snapshot.chain());
         self.report.residual_slide = (0..now.theta.len()).map(|interface| slide(chain, now, interface)).collect();
         if self.problem.is_recorded() {
             self.report.energy_change = energy(self.column(), now) - self.energy_at_start;

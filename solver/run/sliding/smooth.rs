@@ -109,18 +109,18 @@ impl<'p> Smooth<'p> {
         }
     }
 
-    /// A moment of the motion.
-    pub fn moment(&self, configuration: Configuration) -> Moment<'p> {
-        Moment { column: self.column, configuration, chain: OnceCell::new(), answer: None }
+    /// A snapshot of the motion.
+    pub fn snapshot(&self, configuration: Configuration) -> Snapshot<'p> {
+        Snapshot { column: self.column, configuration, chain: OnceCell::new(), answer: None }
     }
 
-    /// Accelerations and forces of a moment at a time `[s]`, evaluated unless they are known; [`Answer::none`] if the rows do not determine them.
-    pub fn answer<'m>(&mut self, t: f64, moment: &'m mut Moment<'p>) -> &'m Answer {
+    /// Accelerations and forces of a snapshot at a time `[s]`, evaluated unless they are known; [`Answer::none`] if the rows do not determine them.
+    pub fn answer<'m>(&mut self, t: f64, snapshot: &'m mut Snapshot<'p>) -> &'m Answer {
         let blocks = self.column.len();
-        if moment.answer.is_none() {
-            moment.answer = self.solved(t, &moment.configuration, moment.chain());
+        if snapshot.answer.is_none() {
+            snapshot.answer = self.solved(t, &snapshot.configuration, snapshot.chain());
         }
-        moment.answer.get_or_insert_with(|| Answer::none(blocks))
+        snapshot.answer.get_or_insert_with(|| Answer::none(blocks))
     }
 
     /// Whether the determinant of the rows has the sign that it had where these states began. Where it changes, forces are infinite on the way (Painlevé).
@@ -140,10 +140,10 @@ impl<'p> Smooth<'p> {
     /// on the stack above (Painlevé).
     pub fn without_step(&mut self, t: f64, x: &[f64], step: f64) -> Result<SlidingEnded, SolveError> {
         let ground = Ground::at(self.segment, t, self.gravity);
-        let mut moment = self.moment(self.configuration(x));
+        let mut snapshot = self.snapshot(self.configuration(x));
         let column = self.column;
-        let most = FACTOR_WITHOUT_STEP * acceleration_scale(column, &moment.configuration, ground);
-        let mut contacts = self.answer(t, &mut moment).contacts.iter().enumerate();
+        let most = FACTOR_WITHOUT_STEP * acceleration_scale(column, &snapshot.configuration, ground);
+        let mut contacts = self.answer(t, &mut snapshot).contacts.iter().enumerate();
         if contacts.any(|(interface, own)| own.normal.abs() > most * column.mass_above(interface)) {
             return Ok(SlidingEnded::Jam);
         }
@@ -164,7 +164,7 @@ impl<'p> Smooth<'p> {
 }
 
 /// The column at one time inside a stretch.
-pub struct Moment<'p> {
+pub struct Snapshot<'p> {
     column: &'p Column,
     pub configuration: Configuration,
     /// Geometry, once it has been asked for.
@@ -173,7 +173,7 @@ pub struct Moment<'p> {
     pub answer: Option<Answer>,
 }
 
-impl<'p> Moment<'p> {
+impl<'p> Snapshot<'p> {
     /// The geometry.
     pub fn chain(&self) -> &Chain<'p> {
         self.chain.get_or_init(|| Chain::new(self.column, &self.configuration))

@@ -5,7 +5,7 @@ mod first_zero;
 mod inside;
 
 use super::recorder::SlidingRecorder;
-use super::smooth::{Moment, Smooth};
+use super::smooth::{Smooth, Snapshot};
 use crate::friction::guard_series::SeriesSpan;
 use crate::friction::guards::{self, Guard};
 use crate::friction::joint::Configuration;
@@ -47,8 +47,8 @@ impl Output for SeriesSpan<'_> {
     }
 }
 
-/// Room made for the moments of a step.
-const USUAL_MOMENTS: usize = 8;
+/// Room made for the snapshots of a step.
+const USUAL_SNAPSHOTS: usize = 8;
 
 /// An accepted step with what has been evaluated inside it.
 pub struct Step<'s, 'p, O> {
@@ -58,8 +58,8 @@ pub struct Step<'s, 'p, O> {
     h: f64,
     /// Places that have been evaluated, 0 to 1.
     places: Vec<f64>,
-    /// The moments at these places.
-    moments: Vec<Moment<'p>>,
+    /// The snapshots at these places.
+    snapshots: Vec<Snapshot<'p>>,
     /// Storage of a state.
     state: Vec<f64>,
     overturn_angle: f64,
@@ -80,8 +80,8 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
     pub fn new(smooth: &'s mut Smooth<'p>, output: &'s O, [t, h]: [f64; 2], options: &SolveOptions) -> Step<'s, 'p, O> {
         let &SolveOptions { overturn_angle, stick_angle, .. } = options;
         let state = vec![0.0; 2 * smooth.dof()];
-        let (places, moments) = (Vec::with_capacity(USUAL_MOMENTS), Vec::with_capacity(USUAL_MOMENTS));
-        Step { smooth, output, t, h, places, moments, state, overturn_angle, stick_angle }
+        let (places, snapshots) = (Vec::with_capacity(USUAL_SNAPSHOTS), Vec::with_capacity(USUAL_SNAPSHOTS));
+        Step { smooth, output, t, h, places, snapshots, state, overturn_angle, stick_angle }
     }
 
     /// Records the step up to its end: the first guard that falls to zero and where, or the end of the whole step.
@@ -98,32 +98,32 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
         StepEnd { t, configuration: self.at(s, false).configuration.clone(), guard }
     }
 
-    /// The moment at a place of the step, 0 to 1, with accelerations and forces where they are needed.
-    fn at(&mut self, s: f64, needs_forces: bool) -> &Moment<'p> {
+    /// The snapshot at a place of the step, 0 to 1, with accelerations and forces where they are needed.
+    fn at(&mut self, s: f64, needs_forces: bool) -> &Snapshot<'p> {
         let index = self.index_of(s);
-        let moment = &mut self.moments[index];
+        let snapshot = &mut self.snapshots[index];
         if needs_forces {
-            self.smooth.answer(self.t + s * self.h, moment);
+            self.smooth.answer(self.t + s * self.h, snapshot);
         }
-        moment
+        snapshot
     }
 
-    /// Index of the moment at a place, which is added if it is not there.
+    /// Index of the snapshot at a place, which is added if it is not there.
     fn index_of(&mut self, s: f64) -> usize {
         if let Some(index) = self.places.iter().position(|place| *place == s) {
             return index;
         }
         self.output.state(s, &mut self.state);
         self.places.push(s);
-        self.moments.push(self.smooth.moment(self.smooth.configuration(&self.state)));
+        self.snapshots.push(self.smooth.snapshot(self.smooth.configuration(&self.state)));
         self.places.len() - 1
     }
 
     /// Whether the rows at a place have a determinant of the sign of that where the states begin.
     fn is_regular(&mut self, s: f64) -> bool {
         let index = self.index_of(s);
-        let moment = &self.moments[index];
-        self.smooth.is_regular(&moment.configuration, moment.chain())
+        let snapshot = &self.snapshots[index];
+        self.smooth.is_regular(&snapshot.configuration, snapshot.chain())
     }
 
     fn value(&mut self, guard: Guard, s: f64) -> f64 {
@@ -133,7 +133,7 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
             return guards::value(guard, column, &self.at(s, false).configuration, overturn_angle);
         }
         let ground = Ground::at(segment, self.t + s * self.h, gravity);
-        let Moment { configuration, answer, .. } = self.at(s, true);
+        let Snapshot { configuration, answer, .. } = self.at(s, true);
         let slack = guard_slack(column, configuration, ground);
         let value = |answer| guards::value_of_forces(guard, column, configuration, answer, &friction.fixed, slack);
         answer.as_ref().map_or(column.mass() * slack, value)

@@ -186,7 +186,7 @@ impl<'p> PendingTransition<'p> {
     fn decided(mut self, kind: EventKind, hint: Option<(usize, Joint)>) -> SlidingTransition {
         if self.stop.is_none() {
             let before = self.now.clone();
-            match self.accelerated(&before, hint) {
+            match self.settle_accelerations(&before, hint) {
                 Ok(joints) => {
                     self.adopt(&joints);
                     self.name(kind, &before);
@@ -198,9 +198,13 @@ impl<'p> PendingTransition<'p> {
     }
 
     /// The states with which the column moves on from here.
-    fn accelerated(&mut self, before: &Configuration, hint: Option<(usize, Joint)>) -> Result<PerBlock<Joint>, RunEnd> {
+    fn settle_accelerations(
+        &mut self,
+        before: &Configuration,
+        hint: Option<(usize, Joint)>,
+    ) -> Result<PerBlock<Joint>, RunEnd> {
         let as_it_came = self.now.clone();
-        let touch = self.joined();
+        let touch = self.join_touching();
         // A guard has just fallen to zero: the states before do not simply go on, even if they are admissible up to rounding. Only a slide that has come
         // to rest may begin anew.
         let is_new = |joint: Joint, interface: usize| joint.sticks() && !before.joints[interface].sticks();
@@ -217,23 +221,23 @@ impl<'p> PendingTransition<'p> {
                 // Blocks that part too slowly were held together, and no motion follows: they go on.
                 self.now = as_it_came;
                 self.resolution.lowest_hop = 0.0;
-                return self.accelerated(before, hint);
+                return self.settle_accelerations(before, hint);
             }
-            None => self.jammed()?,
+            None => self.resolve_jam()?,
         };
         // Hops, bounces and slides lower than the resolution end at once.
         let mut stilled = Stilled::none(self.column().len());
         while let Some(held) = self.too_low(&solution, &mut stilled) {
             let moving = self.now.clone();
             self.hold(&held);
-            let touch = self.joined();
+            let touch = self.join_touching();
             let Some(without) = self.accelerations(&touch, None) else {
                 // Without these hops and slides no motion follows: they go on, unless they have done so in vain.
                 if self.lookahead == 0.0 {
                     self.now = moving;
                     break;
                 }
-                solution = self.jammed()?;
+                solution = self.resolve_jam()?;
                 continue;
             };
             let opens = |(joint, was_stilled): (&Joint, &bool)| *was_stilled && joint.is_corner();
@@ -297,19 +301,19 @@ impl<'p> PendingTransition<'p> {
             }
         }
         self.hold(&joints);
-        let touch = self.joined();
+        let touch = self.join_touching();
         self.accelerations(&touch, None)
     }
 
     /// The accelerations after a jam. Velocities jump again where none follow, once for each contact at most.
-    fn jammed(&mut self) -> Result<Solution, RunEnd> {
+    fn resolve_jam(&mut self) -> Result<Solution, RunEnd> {
         for _ in 0..self.column().len() {
             self.jam();
             if let Some(stop) = self.stop {
                 return Err(stop);
             }
             // What has parted in the jam and touches still is joined: only so does it keep its slide and its momentum.
-            let touch = self.joined();
+            let touch = self.join_touching();
             if let Some(solution) = self.accelerations(&touch, None) {
                 return Ok(solution);
             }
@@ -329,7 +333,7 @@ impl<'p> PendingTransition<'p> {
 
     /// What touches. Free interfaces that have met are joined; faces that stay on each other get one angle and one rate, to the last bit. Slide rates
     /// that are rounding are zero: a direction would be taken from them.
-    fn joined(&mut self) -> Vec<Touch> {
+    fn join_touching(&mut self) -> Vec<Touch> {
         let mut touch = self.touching();
         // What is held may move otherwise than before, and then something else touches.
         for _ in 0..touch.len() {

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 /// Smallest number of records of which fractiles are drawn. Of fewer records, each has a named curve.
 pub const LEAST_RECORDS: usize = 3;
 
-/// Largest number of panels of records that can be read.
+/// Largest number of panels, one per record, that stay legible.
 const MOST_RECORD_PANELS: usize = 9;
 
 /// Keys of the size of a column, which a rocking spectrum has on its axis to the right.

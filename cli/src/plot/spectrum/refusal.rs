@@ -1,9 +1,9 @@
 //! Why a table makes no figure.
 
-/// Largest number of panels that can be read.
+/// Largest number of panels that stay legible.
 pub const MOST_PANELS: usize = 16;
 
-/// Largest number of curves that can be read.
+/// Largest number of curves that stay legible.
 pub const MOST_CURVES: usize = 12;
 
 /// Why a table makes no figure.

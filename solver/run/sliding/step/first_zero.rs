@@ -267,16 +267,16 @@ impl<O: Output> Step<'_, '_, O> {
     /// Rate of a gap at the start, with the step as the unit of time; zero for a guard that is no gap, and where the gap alone decides nothing.
     fn rate_at_start(&mut self, guard: Guard) -> f64 {
         let (h, noise) = (self.h, self.noise(guard));
-        let moment = self.at(0.0, false);
-        let now = &moment.configuration;
+        let snapshot = self.at(0.0, false);
+        let now = &snapshot.configuration;
         match guard {
             Guard::Close(interface) => {
                 let side = if let Joint::Corner(side, ..) = now.joints[interface] { f64::from(side) } else { 0.0 };
                 h * side * now.relative_rate(interface)
             }
             // Flush with the end of the face, the corner may pass beside it.
-            Guard::Land(corner) if gaps::corner_position(moment.chain(), corner)[0] >= -noise => 0.0,
-            Guard::Land(corner) => h * gaps::slide_and_gap_rates(moment.chain(), &Rates::of(now), corner)[1],
+            Guard::Land(corner) if gaps::corner_position(snapshot.chain(), corner)[0] >= -noise => 0.0,
+            Guard::Land(corner) => h * gaps::slide_and_gap_rates(snapshot.chain(), &Rates::of(now), corner)[1],
             _ => 0.0,
         }
     }

@@ -1,4 +1,4 @@
-//! What the recorder reads of a step: moments, crests of angles, forces and work at the nodes of a quadrature.
+//! What the recorder reads of a step: snapshots, crests of angles, forces and work at the nodes of a quadrature.
 
 use super::{Output, Step};
 use crate::friction::chain::Rates;
@@ -11,8 +11,8 @@ use crate::numerics::per_block::PerBlock;
 use crate::numerics::polynomial::powers::Powers;
 use crate::numerics::polynomial::track::Track;
 use crate::run::sliding::contacts;
-use crate::run::sliding::recorder::{Moments, Node, StepInside};
-use crate::run::sliding::smooth::Moment;
+use crate::run::sliding::recorder::{Node, Snapshots, StepInside};
+use crate::run::sliding::smooth::Snapshot;
 
 /// Nodes and weights of Gauss's rule with five places on `[0, 1]`.
 const GAUSS: [(f64, f64); 5] = [
@@ -23,8 +23,8 @@ const GAUSS: [(f64, f64); 5] = [
     (0.953_089_922_969_332, 0.118_463_442_528_094_5),
 ];
 
-impl<'p, O: Output> Moments<'p> for Step<'_, 'p, O> {
-    fn moment(&mut self, t: f64, needs_forces: bool) -> &Moment<'p> {
+impl<'p, O: Output> Snapshots<'p> for Step<'_, 'p, O> {
+    fn snapshot(&mut self, t: f64, needs_forces: bool) -> &Snapshot<'p> {
         self.at(self.place(t), needs_forces)
     }
 }
@@ -60,13 +60,13 @@ impl<'p, O: Output> StepInside<'p> for Step<'_, 'p, O> {
                 }
                 None => {
                     let column = self.smooth.column;
-                    let moment = self.at(s, false);
-                    let motion = moment.chain().motion(&Rates::of(&moment.configuration));
+                    let snapshot = self.at(s, false);
+                    let motion = snapshot.chain().motion(&Rates::of(&snapshot.configuration));
                     let momentum =
                         column.blocks().iter().zip(&motion.linear).fold([0.0, 0.0], |sum, (block, v)| {
                             [sum[0] + block.mass * v[0], sum[1] + block.mass * v[1]]
                         });
-                    (momentum, moment.configuration.slide_rate.clone())
+                    (momentum, snapshot.configuration.slide_rate.clone())
                 }
             };
             visit(&Node { t, weight, momentum, contacts, slide_rates });
