@@ -121,3 +121,40 @@ fn hops_that_are_not_followed_bound_the_horizon() {
     assert!(trust["solver_horizon"].as_f64().is_some_and(|horizon| horizon < 2.0), "{trust}");
     assert_eq!(trust["determined"], false, "{trust}");
 }
+
+/// One block under a pulse just below that which overturns it; the run ends 0.8 s after the pulse.
+fn nearly_overturns(amplitude: f64) -> String {
+    format!(
+        "[[block]]\nhalf_width = 0.3\nhalf_height = 1.0\n[excitation.horizontal]\nkind = \"sine-pulse\"\namplitude = {amplitude}\n\
+         period = 1.2\n[solver]\nt_end = 2.0\n"
+    )
+}
+
+/// Companions that stand at the end but may be falling then have another verdict than a run that stands for certain.
+#[test]
+fn companions_that_may_be_falling_at_the_end_do_not_stand() {
+    let folder = Folder::with("s.toml", &nearly_overturns(3.6013));
+    let told = folder.succeeds("run s.toml");
+    assert_has(&told, &["trust: 9 companions agree to the end", "; may overturn with 0.1 % more shaking\n"]);
+    // A millionth more is enough.
+    folder.write("s.toml", &nearly_overturns(3.602395));
+    let told = folder.succeeds("run s.toml");
+    assert_has(&told, &["not determined; ", " may overturn\n"]);
+    let trust = folder.summary()["trust"].clone();
+    assert_eq!((&trust["verdict"], &trust["determined"]), (&"stands".into(), &false.into()));
+    assert!(trust["companions"].as_array().expect("a list").iter().any(|one| one["verdict"] == "may-overturn"));
+}
+
+/// A run at rest from the start, of which a change of a millionth makes one that overturns: it is compared beyond its end.
+#[test]
+fn a_run_at_rest_is_compared_to_the_end_of_the_time() {
+    let scene = "[[block]]\nhalf_width = 0.3\nhalf_height = 1.0\n[excitation.horizontal]\nkind = \"rectangular\"\namplitude_uplift = 1.0\nduration = 12.0\n";
+    let folder = Folder::with("s.toml", scene);
+    let told = folder.succeeds("run s.toml");
+    assert_has(
+        &told,
+        &["not determined; ", "trust: angles are known up to t = ", "small changes grow more than ", "companions.csv"],
+    );
+    let trust = folder.summary()["trust"].clone();
+    assert!(trust["input_horizon"].as_f64().expect("a number") > 1.0, "{trust}");
+}

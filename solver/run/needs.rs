@@ -3,7 +3,7 @@
 //! Panels after a block has passed its balance are pending. They count once a block comes back, or at the end of a run that does not overturn; those of
 //! a fall are dropped.
 
-use super::panel_forces::{PanelForces, share_above, time_of_crest};
+use super::panel_forces::{PanelForces, place_of_crest};
 use super::stretch::{Inside, Panel};
 use crate::column::Column;
 use crate::numerics::guards::root_between;
@@ -60,24 +60,24 @@ impl Account {
             && own.least_normal >= 0.0
     }
 
-    /// Adds a panel between two times `[s]` that counts for `seconds` of the run; returns whether it has a new extreme.
-    fn add(&mut self, own: &PanelForces, times: [f64; 2], seconds: f64) -> bool {
+    /// Adds a panel, which the motion passes `weight` times; returns whether it has a new extreme. `time` is that of a place in the panel, 0 to 1 `[s]`.
+    fn add(&mut self, own: &PanelForces, time: &dyn Fn(f64) -> f64, weight: f64) -> bool {
         let (is_higher, is_lower) = (own.largest_demand > self.demand.value, own.least_normal < self.normal.value);
         let pull = own.normal.map(|normal| -normal);
         if is_higher {
             let extreme = if own.largest_demand.is_finite() { own.demand } else { pull };
-            self.demand = ExtremeSoFar { value: own.largest_demand, t: time_of_crest(extreme, times), theta: f64::NAN };
+            self.demand = ExtremeSoFar { value: own.largest_demand, t: time(place_of_crest(extreme)), theta: f64::NAN };
         }
         if is_lower {
-            self.normal = ExtremeSoFar { value: own.least_normal, t: time_of_crest(pull, times), theta: f64::NAN };
+            self.normal = ExtremeSoFar { value: own.least_normal, t: time(place_of_crest(pull)), theta: f64::NAN };
         }
         if own.least_normal < 0.0 {
-            self.tension += seconds * share_above(pull, 0.0);
+            self.tension += weight * own.time_in_tension(time);
         }
         // The coefficients rise: the demand is above the first few of them.
         let is_reached = |(_, level): &(&mut f64, f64)| own.largest_demand > *level;
-        for (time, level) in self.above.iter_mut().zip(COEFFICIENTS).take_while(is_reached) {
-            *time += seconds * own.share_above(level);
+        for (above, level) in self.above.iter_mut().zip(COEFFICIENTS).take_while(is_reached) {
+            *above += weight * own.time_above(level, time);
         }
         is_higher || is_lower
     }
@@ -150,29 +150,24 @@ impl Needs {
 
     /// Adds what a contact (from zero) needs in a panel.
     pub fn add(&mut self, interface: usize, panel: &Panel, own: &PanelForces) {
-        let counted = &mut self.counted[interface];
+        let (counted, pending) = (&mut self.counted[interface], &mut self.pending[interface]);
+        let Panel { time, weight, .. } = *panel;
         if !self.past_since.is_finite() {
-            if !counted.covers(own) {
-                let times = (panel.times)();
-                self.is_fresh |= counted.add(own, times, panel.weight * (times[1] - times[0]));
-            }
+            self.is_fresh |= !counted.covers(own) && counted.add(own, time, weight);
             return;
         }
-        let times = (panel.times)();
-        let seconds = panel.weight * (times[1] - times[0]);
-        if times[1] <= self.past_since {
-            self.is_fresh |= counted.add(own, times, seconds);
-            return;
+        let (start, end) = (time(0.0), time(1.0));
+        if end <= self.past_since {
+            self.is_fresh |= counted.add(own, time, weight);
+        } else if self.past_since <= start {
+            self.is_fresh |= pending.add(own, time, weight);
+        } else {
+            // A block passes its balance within the panel.
+            let passes = root_between(0.0, 1.0, |place| time(place) - self.past_since);
+            self.is_fresh |= counted.add(&own.part([0.0, passes]), &|place| time(place * passes), weight);
+            let later = |place: f64| time(passes + place * (1.0 - passes));
+            self.is_fresh |= pending.add(&own.part([passes, 1.0]), &later, weight);
         }
-        let pending = &mut self.pending[interface];
-        if self.past_since <= times[0] {
-            self.is_fresh |= pending.add(own, times, seconds);
-            return;
-        }
-        // A block passes its balance within the panel.
-        let share = (self.past_since - times[0]) / (times[1] - times[0]);
-        self.is_fresh |= counted.add(&own.part([0.0, share]), [times[0], self.past_since], share * seconds);
-        self.is_fresh |= pending.add(&own.part([share, 1.0]), [self.past_since, times[1]], (1.0 - share) * seconds);
     }
 
     /// Ends a stretch: gives its extremes their angles.

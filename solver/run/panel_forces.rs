@@ -12,16 +12,17 @@ pub(crate) struct PanelForces {
 }
 
 impl PanelForces {
-    /// From the contact forces at start, middle and end.
+    /// From the contact forces at start, middle and end, which are extremes where the forces are monotonic between.
     #[inline(always)]
-    pub fn of(forces: [ContactForce; 3]) -> PanelForces {
+    pub fn of(forces: [ContactForce; 3], is_monotonic: bool) -> PanelForces {
         let (tangential, normal) = (forces.map(|force| force.tangential), forces.map(|force| force.normal));
-        let least_normal = -crest(normal.map(|normal| -normal));
+        let largest = |[a, b, c]: [f64; 3]| if is_monotonic { a.max(c) } else { crest([a, b, c]) };
+        let least_normal = -largest(normal.map(|normal| -normal));
         let demand = forces.map(|force| force.friction_demand());
         let is_finite = demand.iter().all(|demand| demand.is_finite());
         // Between the three places the contact may part while a tangential force acts.
         let parts = least_normal <= 0.0 && tangential.iter().any(|tangential| *tangential != 0.0);
-        let largest_demand = if is_finite && !parts { crest(demand) } else { f64::INFINITY };
+        let largest_demand = if is_finite && !parts { largest(demand) } else { f64::INFINITY };
         PanelForces { tangential, normal, demand, largest_demand, least_normal }
     }
 
@@ -32,18 +33,42 @@ impl PanelForces {
             tangential: parabola(self.tangential, share),
             moment: 0.0,
         };
-        PanelForces::of([from, 0.5 * (from + until), until].map(force))
+        PanelForces::of([from, 0.5 * (from + until), until].map(force), false)
     }
 
-    /// Share of the panel in which the friction demand is above a coefficient.
-    pub fn share_above(&self, coefficient: f64) -> f64 {
-        if self.demand.iter().all(|demand| demand.is_finite()) {
-            return share_above(self.demand, coefficient);
-        }
-        // Where the normal force passes zero, the demand has no bound, but what the tangential force is above has: `μ N`.
-        let excess = |place: usize| self.tangential[place].abs() - coefficient * self.normal[place];
-        share_above([0, 1, 2].map(excess), 0.0)
+    /// Time in which the tangential force is above a coefficient times the normal force `[s]`. `time` is that of a place in the panel, 0 to 1.
+    pub fn time_above(&self, coefficient: f64, time: &dyn Fn(f64) -> f64) -> f64 {
+        let beyond = |sign: f64| [0, 1, 2].map(|k| sign * self.tangential[k] - coefficient * self.normal[k]);
+        time_of_any([beyond(1.0), beyond(-1.0)], time)
     }
+
+    /// Time in which the contact would have to pull `[s]`.
+    pub fn time_in_tension(&self, time: &dyn Fn(f64) -> f64) -> f64 {
+        let pull = self.normal.map(|normal| -normal);
+        time_of_any([pull; 2], time)
+    }
+}
+
+/// Time in which the parabola of one or the other quantity, by its values at start, middle and end, is above zero `[s]`.
+fn time_of_any(quantities: [[f64; 3]; 2], time: &dyn Fn(f64) -> f64) -> f64 {
+    let mut places = [0.0, 1.0, 1.0, 1.0, 1.0, 1.0];
+    for (place, root) in places[1..5].iter_mut().zip(quantities.iter().flat_map(|values| roots(*values))) {
+        if root > 0.0 && root < 1.0 {
+            *place = root;
+        }
+    }
+    places.sort_by(f64::total_cmp);
+    let is_above = |place: f64| quantities.iter().any(|values| parabola(*values, place) > 0.0);
+    let parts = places.windows(2).filter(|part| part[0] < part[1] && is_above(0.5 * (part[0] + part[1])));
+    parts.map(|part| time(part[1]) - time(part[0])).sum()
+}
+
+/// Roots of the parabola through values at 0, 1/2 and 1; not a number where there is none.
+fn roots([a, b, c]: [f64; 3]) -> [f64; 2] {
+    let (slope, bend) = (4.0 * b - 3.0 * a - c, 2.0 * a - 4.0 * b + 2.0 * c);
+    // Without cancellation: the larger sum, and the product of both roots.
+    let sum = -0.5 * (slope + (slope * slope - 4.0 * bend * a).sqrt().copysign(slope));
+    [sum / bend, a / sum]
 }
 
 /// The largest value of the parabola through three equally spaced values, between the outer two.
@@ -58,26 +83,15 @@ fn parabola([a, b, c]: [f64; 3], share: f64) -> f64 {
     a + share * (4.0 * b - 3.0 * a - c + share * (2.0 * a - 4.0 * b + 2.0 * c))
 }
 
-/// Time of the largest value of a quantity with these values at start, middle and end `[s]`: the crest of their parabola, or one of the three.
-pub(crate) fn time_of_crest([a, b, c]: [f64; 3], [from, until]: [f64; 2]) -> f64 {
+/// Place, 0 to 1, of the largest value of a quantity with these values at start, middle and end: the crest of their parabola, or one of the three.
+pub(crate) fn place_of_crest([a, b, c]: [f64; 3]) -> f64 {
     let (slope, bend) = (0.5 * (c - a), a - 2.0 * b + c);
-    let middle = 0.5 * (from + until);
     match () {
-        () if bend < 0.0 && slope.abs() < -bend => middle - 0.5 * (until - from) * slope / bend,
-        () if c >= a && c >= b => until,
-        () if a >= b => from,
-        () => middle,
+        () if bend < 0.0 && slope.abs() < -bend => 0.5 - 0.5 * slope / bend,
+        () if c >= a && c >= b => 1.0,
+        () if a >= b => 0.0,
+        () => 0.5,
     }
-}
-
-/// Share of a panel in which a quantity with these values at start, middle and end is above a level, linear between them.
-pub(crate) fn share_above([a, b, c]: [f64; 3], level: f64) -> f64 {
-    let half = |a: f64, b: f64| match (a > level, b > level) {
-        (true, true) => 0.5,
-        (false, false) => 0.0,
-        _ => 0.5 * (a.max(b) - level) / (a - b).abs(),
-    };
-    half(a, b) + half(b, c)
 }
 
 #[cfg(test)]
@@ -88,16 +102,25 @@ mod tests {
     fn crests_and_shares_of_parabolas_are_found() {
         // 1 - (x - 1/4)² on [-1, 1] has its crest at 1/4: five eighths of the panel.
         let values = [-1.0, 0.0, 1.0].map(|x: f64| 1.0 - (x - 0.25) * (x - 0.25));
-        assert!((time_of_crest(values, [2.0, 4.0]) - 3.25).abs() < 1e-15);
-        assert_eq!(time_of_crest([1.0, 2.0, 3.0], [2.0, 4.0]), 4.0);
-        assert_eq!(time_of_crest([3.0, 2.0, 1.0], [2.0, 4.0]), 2.0);
-        assert_eq!(share_above([0.0, 1.0, 3.0], 2.0), 0.25);
-        // Normal forces of 2, 1 and 0 under a tangential force of 1: the demand is above 2 from N = 1/2 on.
-        let forces = [2.0, 1.0, 0.0].map(|normal| ContactForce { normal, tangential: -1.0, moment: 0.0 });
-        assert_eq!(PanelForces::of(forces).share_above(2.0), 0.25);
+        assert!((place_of_crest(values) - 0.625).abs() < 1e-15);
+        assert_eq!([[1.0, 2.0, 3.0], [3.0, 2.0, 1.0]].map(place_of_crest), [1.0, 0.0]);
+        // In a panel from 2 s to 6 s. Normal forces of 2, 1 and 0 under a tangential force of 1: the demand is above 2 from N = 1/2 on.
+        let time = |place: f64| 2.0 + 4.0 * place;
+        let force = |normal: f64, tangential: f64| ContactForce { normal, tangential, moment: 0.0 };
+        let forces = [2.0, 1.0, 0.0].map(|normal| force(normal, -1.0));
+        assert_eq!(PanelForces::of(forces, false).time_above(2.0, &time), 1.0);
+        // The tangential force turns: its size is above 0.3 in the first and the last sixth of the way from 0.45 to -0.45.
+        let forces = [0.45, 0.0, -0.45].map(|tangential| force(1.0, tangential));
+        assert!((PanelForces::of(forces, true).time_above(0.3, &time) - 4.0 / 3.0).abs() < 1e-14);
+        // A contact that pulls in the middle half.
+        let forces = [0.75, -0.25, 0.75].map(|normal| force(normal, 0.0));
+        assert!((PanelForces::of(forces, false).time_in_tension(&time) - 2.0).abs() < 1e-14);
+        // Time need not go evenly with the place: the parabola (place)² is above 1/4 from 1/2 on.
+        let forces = [0.0, 0.25, 1.0].map(|tangential| force(1.0, tangential));
+        assert!((PanelForces::of(forces, false).time_above(0.25, &|place| place * place) - 0.75).abs() < 1e-14);
         // The first half of a panel of the parabola (1 + x)²: values at 0, 1/4 and 1/2.
         let forces =
             [0.0, 0.5, 1.0].map(|x: f64| ContactForce { normal: (1.0 + x) * (1.0 + x), tangential: 0.0, moment: 0.0 });
-        assert_eq!(PanelForces::of(forces).part([0.0, 0.5]).normal, [1.0, 1.5625, 2.25]);
+        assert_eq!(PanelForces::of(forces, false).part([0.0, 0.5]).normal, [1.0, 1.5625, 2.25]);
     }
 }

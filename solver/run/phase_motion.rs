@@ -239,7 +239,12 @@ impl Inside for Phase {
             Kind::Instant if self.has_moved => {}
             Kind::Instant => {
                 self.evaluate_start_forces(problem);
-                note(&Panel { forces: [&self.forces.start.forces; 3], times: &|| [self.t; 2], weight: 1.0 });
+                note(&Panel {
+                    forces: [&self.forces.start.forces; 3],
+                    is_monotonic: true,
+                    time: &|_| self.t,
+                    weight: 1.0,
+                });
             }
         }
     }

@@ -338,7 +338,7 @@ fn raise_forces(
     mut account: impl FnMut(usize, &PanelForces),
 ) {
     for (interface, (largest, least)) in friction_demand.iter_mut().zip(min_normal_force).enumerate() {
-        let own = PanelForces::of(panel.forces.map(|forces| forces[interface]));
+        let own = PanelForces::of(panel.forces.map(|forces| forces[interface]), panel.is_monotonic);
         (*least, *largest) = (least.min(own.least_normal), largest.max(own.largest_demand));
         account(interface, &own);
     }

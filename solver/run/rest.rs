@@ -97,8 +97,13 @@ impl Inside for Rest {
                 t = self.held_until.min(segment.end);
             }
             let until = if segment.end < end { segment.end } else { end };
-            visit_forces(column, segment, [t, until], &mut |forces, times| {
-                note(&Panel { forces: [forces; 3], times: &|| times, weight: 1.0 });
+            let mut before = PerBlock::new();
+            visit_forces(column, segment, [t, until], &mut |here, [from, until]| {
+                let start = if before.is_empty() { here } else { &before[..] };
+                let middle: PerBlock<ContactForce> = start.iter().zip(here).map(|(a, b)| mean(a, b)).collect();
+                let time = |place: f64| from + place * (until - from);
+                note(&Panel { forces: [start, &middle, here], is_monotonic: true, time: &time, weight: 1.0 });
+                before = PerBlock::from_slice(here);
             });
             t = until;
         }
@@ -170,6 +175,15 @@ pub fn contact_forces(column: &Column, ground: Ground) -> PerBlock<ContactForce>
         ContactForce { normal, tangential, moment }
     };
     (0..column.len()).map(force).collect()
+}
+
+/// The mean of two contact forces.
+fn mean(a: &ContactForce, b: &ContactForce) -> ContactForce {
+    ContactForce {
+        normal: 0.5 * (a.normal + b.normal),
+        tangential: 0.5 * (a.tangential + b.tangential),
+        moment: 0.5 * (a.moment + b.moment),
+    }
 }
 
 /// Energy of the column that stands still.

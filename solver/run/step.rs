@@ -334,8 +334,9 @@ impl Phase {
                 end.copy_from_slice(&last);
             }
             self.evaluate_forces_at_share(problem, step, at(panel as f64 + 0.5));
-            let times = || [panel as f64, panel as f64 + 1.0].map(|place| self.t + step.h * at(place));
-            note(&Panel { forces: [&start, &self.forces.last, &end], times: &times, weight: 1.0 });
+            let time = |place: f64| self.t + step.h * at(panel as f64 + place);
+            let forces = [&start, &self.forces.last, &end].map(|forces| &forces[..]);
+            note(&Panel { forces, is_monotonic: false, time: &time, weight: 1.0 });
             std::mem::swap(&mut start, &mut end);
         }
         self.forces.last.copy_from_slice(&last);

@@ -90,8 +90,10 @@ pub(crate) trait Inside {
 pub(crate) struct Panel<'a> {
     /// At start, middle and end.
     pub forces: [&'a [ContactForce]; 3],
-    /// Times of start and end `[s]`; evaluated on demand.
-    pub times: &'a dyn Fn() -> [f64; 2],
+    /// Whether forces are monotonic from start to end: their extremes are then at the ends.
+    pub is_monotonic: bool,
+    /// Time of a place, 0 to 1 from start to end `[s]`; evaluated on demand.
+    pub time: &'a dyn Fn(f64) -> f64,
     /// How often the motion passes the panel: a swing goes out and comes back.
     pub weight: f64,
 }

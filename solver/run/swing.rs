@@ -14,9 +14,10 @@ use crate::numerics::guards::{first_crossing, polished};
 use crate::numerics::per_block::PerBlock;
 use rocking_codegen::pattern::Interface;
 
-/// A part of a swing from its start to an angle.
+/// A part of a swing between two angles.
 #[derive(Clone, Copy)]
 struct Leg {
+    from: f64,
     to: f64,
     /// Whether the swing passes this part after its crest.
     is_back: bool,
@@ -183,32 +184,43 @@ impl Phase {
         let turn = if swing.has_turned() { swing.course.swing.turning_point() } else { None };
         let (start, end) = (swing.course.start, swing.end[0]);
         let Some(turn) = turn else {
-            self.forces_of_leg(problem, &swing.course, Leg { to: end, is_back: false, weight: 1.0 }, note);
-            return;
+            let whole = Leg { from: start, to: end, is_back: false, weight: 1.0 };
+            return self.forces_of_leg(problem, &swing.course, whole, note);
         };
         // Back from the crest, the swing passes its outward part again, as far as it comes, and then angles before its start.
-        let share_back = ((end - turn).abs() / (start - turn).abs()).min(1.0);
         let comes_before = (end - turn).abs() > (start - turn).abs();
-        self.forces_of_leg(problem, &swing.course, Leg { to: turn, is_back: false, weight: 1.0 + share_back }, note);
-        let weight = if comes_before { 1.0 } else { 0.0 };
-        self.forces_of_leg(problem, &swing.course, Leg { to: end, is_back: true, weight }, note);
+        let legs = match comes_before {
+            true => [
+                Leg { from: start, to: turn, is_back: false, weight: 2.0 },
+                Leg { from: start, to: end, is_back: true, weight: 1.0 },
+            ],
+            false => [
+                Leg { from: start, to: end, is_back: false, weight: 1.0 },
+                Leg { from: end, to: turn, is_back: false, weight: 2.0 },
+            ],
+        };
+        legs.into_iter().for_each(|leg| self.forces_of_leg(problem, &swing.course, leg, note));
     }
 
-    /// Forces between the start of a swing and an angle.
+    /// Forces between two angles of a swing.
     fn forces_of_leg(
         &mut self,
         problem: &Problem,
         course: &Course,
-        Leg { to, is_back, weight }: Leg,
+        Leg { from, to, is_back, weight }: Leg,
         note: &mut dyn FnMut(&Panel),
     ) {
-        let from = course.start;
         if from == to {
             return;
         }
-        self.evaluate_start_forces(problem);
         let panels = (PANELS_PER_TURN * (to - from).abs()).ceil().max(1.0) as usize;
-        let mut start = self.forces.start.forces.clone();
+        let mut start = if from == course.start {
+            self.evaluate_start_forces(problem);
+            self.forces.start.forces.clone()
+        } else {
+            self.evaluate_forces_at_angle(problem, course, from);
+            self.forces.last.clone()
+        };
         for panel in 0..panels {
             let at = |place: f64| from + (to - from) * place / panels as f64;
             self.evaluate_forces_at_angle(problem, course, at(panel as f64 + 0.5));
@@ -219,8 +231,8 @@ impl Phase {
                 let size = course.swing.rate_at(at(place)).unwrap_or(0.0);
                 self.t + course.swing.time_to(at(place), if moves_out { size } else { -size })
             };
-            let times = || [panel as f64, panel as f64 + 1.0].map(time);
-            note(&Panel { forces: [&start, &middle, &self.forces.last], times: &times, weight });
+            let forces = [&start, &middle, &self.forces.last].map(|forces| &forces[..]);
+            note(&Panel { forces, is_monotonic: false, time: &|share| time(panel as f64 + share), weight });
             start.copy_from_slice(&self.forces.last);
         }
     }

@@ -1,6 +1,6 @@
 //! Companions of a run: the same scene, changed by less than anybody can know.
 
-use super::history::Comparison;
+use super::history::{AGREEMENT, Comparison};
 use super::verdict::Verdict;
 use crate::column::{Block, Column};
 use crate::response::Response;
@@ -135,7 +135,7 @@ impl Companion {
     pub(super) fn new(change: Change, run: Option<&Response>, comparison: Option<Comparison>) -> Companion {
         Companion {
             change,
-            verdict: run.map(|run| Verdict::of(run.status)),
+            verdict: run.map(Verdict::of),
             block: run.and_then(Response::lost_block),
             ends_at: run.map_or(0.0, |run| run.t_final),
             parts_at: comparison.as_ref().map_or(Some(0.0), |found| found.parts_at),
@@ -145,7 +145,7 @@ impl Companion {
 }
 
 /// Largest growth of a relative change of the input, and whether the growth went on beyond the horizon. The larger change counts unless it made runs
-/// part: the solver's own error is a larger part of the smaller one.
+/// part: the solver's own error is a larger part of the smaller one. Runs that part differ by [`AGREEMENT`] at least.
 pub(super) fn amplification(companions: &[Companion]) -> (f64, bool) {
     let growth = |size: f64| {
         let own = companions.iter().filter(move |one| one.change.size() == Some(size));
@@ -155,6 +155,10 @@ pub(super) fn amplification(companions: &[Companion]) -> (f64, bool) {
     };
     match growth(CHANGES[2]) {
         (most, false) => (most, false),
-        _ => growth(CHANGES[0]),
+        _ => {
+            let (of_least_change, parts) = growth(CHANGES[0]);
+            let least = AGREEMENT / CHANGES[2];
+            (of_least_change.max(least), parts || of_least_change < least)
+        }
     }
 }

@@ -63,7 +63,7 @@ impl Fold {
             if let Some(cancelled) = cancellation(&run) {
                 return Err(cancelled);
             }
-            let verdict_there = run.ok().map(|run| Verdict::of(run.status)).filter(|there| *there != verdict);
+            let verdict_there = run.ok().map(|run| Verdict::of(&run)).filter(|there| *there != verdict);
             Ok(verdict_there.map(|verdict| Turn { change, verdict }))
         };
         let mut tried = Vec::new();

@@ -35,8 +35,7 @@ impl Comparison {
             difference = difference.max(here);
         }
         let both = rows().count();
-        let parts =
-            Verdict::of(run.status) != Verdict::of(other.status) || run.samples.len().abs_diff(other.samples.len()) > 1;
+        let parts = Verdict::of(run) != Verdict::of(other) || run.samples.len().abs_diff(other.samples.len()) > 1;
         let last = |count: usize| run.samples[..count].last().map_or(0.0, |row| row.t);
         Comparison { parts_at: parts.then(|| last(both)), difference }
     }

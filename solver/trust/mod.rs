@@ -173,16 +173,18 @@ pub fn follow_run_observed(
         })
         .collect();
     let ends_at = response.t_final;
+    // A run that has come to rest is compared beyond its end.
     let until = |is_taken: fn(&Companion) -> bool| {
-        companions.iter().filter(|one| is_taken(one)).filter_map(|one| one.parts_at).fold(ends_at, f64::min)
+        let parted = companions.iter().filter(|one| is_taken(one)).filter_map(|one| one.parts_at);
+        parted.reduce(f64::min).unwrap_or(ends_at)
     };
     let horizon = until(|one| one.change.is_small());
-    let verdict = Verdict::of(response.status);
+    let verdict = Verdict::of(response);
     let same_verdict = companions.iter().all(|one| one.verdict == Some(verdict));
     let block = response.lost_block();
     let same_block = runs.iter().all(|(_, run)| run.as_ref().is_some_and(|run| run.lost_block() == block));
     let certain_at = certain_at(scene, response, run)?;
-    let is_settled = verdict != Verdict::Undetermined && !response.may_overturn;
+    let is_settled = !matches!(verdict, Verdict::Undetermined | Verdict::MayOverturn);
     let determined = is_settled && same_verdict && horizon >= certain_at;
     let (amplification, grows_on) = companions::amplification(&companions);
     let all = || std::iter::once(&own).chain(runs.iter().filter_map(|(_, run)| run.as_ref()));
@@ -259,7 +261,7 @@ fn certain_at(
 impl Trust {
     /// Whether all companions agree to the end of the run.
     pub fn reaches_the_end(&self) -> bool {
-        self.input_horizon >= self.ends_at
+        self.companions.iter().all(|companion| companion.parts_at.is_none())
     }
 
     /// The companions by their verdict, the most frequent first; `None` for those that failed.
@@ -301,7 +303,7 @@ impl Trust {
                 format!("of {count} companions {}", counts.join(", "))
             }
         };
-        let known = match self.horizon >= self.ends_at && self.verdict == Verdict::Stands {
+        let known = match self.horizon >= self.ends_at && self.verdict == Verdict::MayOverturn {
             true => "angles are known to the end of the run, but the column may be falling then".to_string(),
             false => format!("angles are known up to t = {:.4} s only", self.horizon),
         };
@@ -322,6 +324,7 @@ fn counted((verdict, count): (Option<Verdict>, usize)) -> String {
 fn plural(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Stands => "stand",
+        Verdict::MayOverturn => "may overturn",
         Verdict::Overturns => "overturn",
         Verdict::Collapses => "collapse",
         Verdict::Undetermined => "end undetermined",

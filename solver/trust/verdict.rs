@@ -1,6 +1,6 @@
 //! The verdict of a run, as far as one asks whether the column stands.
 
-use crate::response::StopReason;
+use crate::response::{Response, StopReason};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -11,6 +11,8 @@ use std::fmt;
 pub enum Verdict {
     /// At rest, or rocking at the end of the run.
     Stands,
+    /// Standing at the end of the run, past its balance or with the energy to get there ([`Response::may_overturn`]).
+    MayOverturn,
     /// Some angle reached the overturning angle.
     Overturns,
     /// A block slid or flew off its support; only with friction.
@@ -20,20 +22,22 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// The verdict of a run that ended for this reason.
-    pub fn of(status: StopReason) -> Verdict {
-        match status {
+    /// The verdict of a run.
+    pub fn of(run: &Response) -> Verdict {
+        match run.status {
             status if status.overturns() => Verdict::Overturns,
             StopReason::Collapsed => Verdict::Collapses,
             StopReason::Undetermined => Verdict::Undetermined,
+            _ if run.may_overturn => Verdict::MayOverturn,
             _ => Verdict::Stands,
         }
     }
 
-    /// The verdict as in a sentence: `stands`, `overturns`, `collapses`, `ends undetermined`.
+    /// The verdict as in a sentence: `stands`, `may overturn`, `overturns`, `collapses`, `ends undetermined`.
     pub fn words(self) -> &'static str {
         match self {
             Verdict::Stands => "stands",
+            Verdict::MayOverturn => "may overturn",
             Verdict::Overturns => "overturns",
             Verdict::Collapses => "collapses",
             Verdict::Undetermined => "ends undetermined",

@@ -15,7 +15,7 @@ class Trust:
     determined: bool
     """Whether the verdict is determined: certain within the horizon, and that of all companions."""
     verdict: str
-    """Of the run itself: ``stands``, ``overturns``, ``collapses`` or ``undetermined``."""
+    """Of the run itself: ``stands``, ``may-overturn``, ``overturns``, ``collapses`` or ``undetermined``."""
     certain_at: float
     """Time from which that verdict was certain [s]."""
     horizon: float
