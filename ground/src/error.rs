@@ -99,6 +99,11 @@ pub enum RecordError {
         microseconds(usual)
     )]
     Uneven { line: usize, time: f64, step: f64, usual: f64 },
+    /// Most times of a table are not above the time of the row before.
+    #[error(
+        "line {line}: time {time} s is not above the one of the row before; sort the rows by time, the earliest first"
+    )]
+    Falling { line: usize, time: f64 },
     /// The steps of the times of a table are usual ones, but add up to a drift.
     #[error(
         "line {line}: time {time} s is {} s off a constant interval of {} s, though no step is odd; give `dt` if the times are \

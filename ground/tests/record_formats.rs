@@ -548,6 +548,7 @@ fn tables_are_refused_where_they_leave_a_choice_or_are_uneven() {
         ("t [s], v [m/s]\n0, 1\n0.1, 2\n", "`m/s` of column `v`"),
         ("time (frames), a [g]\n0, 1\n1, 2\n", "line 1: `frames` of column `time` is no unit of time"),
         ("t, a, b\n0, 1\n0.1, 2\n", "line 1: 3 name(s) above 2 column(s)"),
+        ("t, a\n0.2, 0\n0.1, 1\n0, 2\n", "line 3: time 0.1 s is not above the one of the row before; sort the rows"),
         ("2011-03-11 0.1\n2011-03-12 0.2\n", "line 1, column 1: `2011-03-11`"),
         ("PK\u{3}\u{4}\u{0}", "a ZIP archive or a spreadsheet; unpack it, or save it as text or CSV"),
         ("1\n2\u{0}\u{0}\n3\n", "the file is no text"),
@@ -559,6 +560,12 @@ fn tables_are_refused_where_they_leave_a_choice_or_are_uneven() {
         refused(b"0.1\n0.2\n", &TextOptions { dt: Some(0.1), ..options() }),
         RecordError::Missing { quantity: "unit", key: "units" }
     );
+    // Each component beside its own times.
+    let two = "Time1 (s),NS (g),Time2 (s),EW (g)\n0,0,0,0\n0.01,1,0.02,1\n0.02,2,0.04,2\n";
+    for (column, dt) in [("NS", 0.01), ("EW", 0.02)] {
+        let chosen = TextOptions { column: Some(column.into()), ..options() };
+        assert_eq!(RecordFile::read(two.as_bytes(), &chosen).expect("a table").dt, dt, "{column}");
+    }
     // Times of three decimals at 256 Hz are off by up to half a thousandth, an eighth of the interval; at 100 Hz they are exact.
     let times = |rate: f64| (0..200).map(|k| format!("{:.3} 1\n", f64::from(k) / rate)).collect::<String>();
     assert!(matches!(refused(times(256.0).as_bytes(), &g), RecordError::Uneven { .. }));

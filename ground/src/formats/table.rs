@@ -461,14 +461,15 @@ fn acceleration_column(rows: &Rows, options: &TextOptions) -> Result<usize, Reco
     }
 }
 
-/// The column of the times: the first one with such a name. In a table without names, the nearest column before the accelerations that has equal
+/// The column of the times: the nearest one with such a name before the accelerations, else the first one. In a table without names, the nearest column before the accelerations that has equal
 /// steps, since numbers of rows or other components may stand there too, else the first column if it rises or falls throughout. If `dt` is given, numbers of
 /// rows are no times. `None` if there is no such column, or if it is the chosen one.
 fn time_column(rows: &Rows, chosen: usize, options: &TextOptions) -> Option<usize> {
     let headings = &rows.headings.1;
     if !headings.is_empty() {
-        let named = headings.iter().position(|heading| heading.quantity() == Some(Quantity::Time));
-        return named.filter(|time| *time != chosen);
+        let is_time = |column: &usize| headings[*column].quantity() == Some(Quantity::Time);
+        let nearest = (0..chosen.min(headings.len())).rev().find(is_time);
+        return nearest.or_else(|| (chosen + 1..headings.len()).find(is_time));
     }
     let runs_evenly = |column: &usize| {
         let step = rows.mean_step(*column, 1.0);
@@ -524,6 +525,10 @@ fn uneven(rows: &Rows, row: usize, at: impl Fn(usize) -> f64) -> RecordError {
         let interval = (at(rows.lines.len() - 1) - at(0)) / (rows.lines.len() - 1) as f64;
         let off = (at(row) - at(0) - row as f64 * interval).abs();
         return RecordError::Drift { line: rows.lines[row], time: at(row), off, interval };
+    }
+    if usual <= 0.0 {
+        let row = (1..rows.lines.len()).find(|row| step(*row) <= 0.0).unwrap_or(row);
+        return RecordError::Falling { line: rows.lines[row], time: at(row) };
     }
     let row = odd.unwrap_or(row);
     RecordError::Uneven { line: rows.lines[row], time: at(row), step: step(row), usual }
