@@ -169,3 +169,16 @@ fn a_check_says_towards_which_side_a_displaced_column_is_weak() {
     );
     assert_has(&told("-0.4"), &["is enough to open", "opens at 0.2444 g towards its weaker side"]);
 }
+
+#[test]
+fn stacks_that_do_not_stand_by_themselves_are_named() {
+    let block = "[[block]]\nhalf_width = 0.4\nhalf_height = 0.5\n";
+    let scene = |slide: &str| format!("{}[initial]\nslide = {slide}\n[solver]\nt_end = 1\n", block.repeat(3));
+    let folder = Folder::with("s.toml", &scene("[0, 0.35, 0.45]"));
+    assert_has(
+        &folder.succeeds("check s.toml"),
+        &["the stack above interface(s) 2, 3 does not stand by itself: its weight acts"],
+    );
+    folder.write("s.toml", scene("[0, 0.1, 0]"));
+    assert!(!folder.succeeds("check s.toml").contains("stand by itself"));
+}

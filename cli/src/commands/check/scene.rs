@@ -304,6 +304,15 @@ impl Findings {
                 stack.housner_ratio
             );
         }
+        let falling = self.stacks.iter().filter(|stack| stack.slenderness <= 0.0);
+        let falling: Vec<String> = falling.map(|stack| stack.interface.to_string()).collect();
+        if !falling.is_empty() {
+            let _ = writeln!(
+                text,
+                "the stack above interface(s) {} does not stand by itself: its weight acts beyond the contact",
+                falling.join(", ")
+            );
+        }
         let factors: Vec<String> = self.restitution_factors.iter().map(|factor| format!("{factor:.4}")).collect();
         let factors = factors.join(", ");
         let _ = match &scene.restitution {
