@@ -137,7 +137,7 @@ fn companions_that_may_be_falling_at_the_end_do_not_stand() {
     let told = folder.succeeds("run s.toml");
     assert_has(&told, &["trust: 9 companions agree to the end", "; may overturn with 0.1 % more shaking\n"]);
     // A millionth more is enough.
-    folder.write("s.toml", &nearly_overturns(3.602395));
+    folder.write("s.toml", nearly_overturns(3.602395));
     let told = folder.succeeds("run s.toml");
     assert_has(&told, &["not determined; ", " may overturn\n"]);
     let trust = folder.summary()["trust"].clone();

@@ -43,7 +43,7 @@ pub struct Bands {
     pub median: Option<[f64; 2]>,
     /// Band of the dispersion; `None` if there is none of the median.
     pub dispersion: Option<[f64; 2]>,
-    /// Bands of the probability at the levels of [`Fragility::counts`]; empty if there is no band of the median.
+    /// Bands of the probability at the levels of [`super::Fragility::counts`]; empty if there is no band of the median.
     pub at_counts: Vec<[f64; 2]>,
     /// Bands of the probability at the levels of [`Bands::levels`].
     pub probability: Vec<[f64; 2]>,
