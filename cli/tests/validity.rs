@@ -53,8 +53,7 @@ fn durations_of_friction_demand_are_those_of_the_rows() {
         for (interface, needs) in response.validity.as_ref().expect("forces are recorded").contacts.iter().enumerate() {
             let demands = response.samples.iter().map(|row| {
                 let force = &row.contact_forces(&scene.column)[interface];
-                let angle = row.theta[interface] - if interface == 0 { 0.0 } else { row.theta[interface - 1] };
-                (row.t, force.tangential.abs() / force.normal, angle)
+                (row.t, force.tangential.abs() / force.normal, row.theta[interface])
             });
             let demands: Vec<(f64, f64, f64)> = demands.collect();
             for above in &needs.above {
@@ -67,7 +66,7 @@ fn durations_of_friction_demand_are_those_of_the_rows() {
             let largest = demands.iter().fold((0.0, 0.0, 0.0), |most, own| if own.1 > most.1 { *own } else { most });
             let own = needs.friction_demand;
             assert!((own.value - largest.1).abs() < 1e-3 * largest.1, "{own:?} {largest:?}");
-            if interface == 0 && column != at_rest {
+            if column != at_rest {
                 assert!(
                     (own.t - largest.0).abs() < 2e-3 && (own.theta - largest.2).abs() < 2e-3,
                     "{own:?} {largest:?}"

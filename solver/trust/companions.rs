@@ -148,7 +148,9 @@ impl Companion {
 /// part: the solver's own error is a larger part of the smaller one. Runs that part differ by [`AGREEMENT`] at least.
 pub(super) fn amplification(companions: &[Companion]) -> (f64, bool) {
     let growth = |size: f64| {
-        let own = companions.iter().filter(move |one| one.change.size() == Some(size));
+        // A companion that failed or ends undetermined parts without having grown.
+        let has_verdict = |one: &&Companion| one.verdict.is_some_and(|verdict| verdict != Verdict::Undetermined);
+        let own = companions.iter().filter(move |one| one.change.size() == Some(size)).filter(has_verdict);
         own.clone().fold((0.0f64, false), |(most, parts), one| {
             (most.max(one.difference / size), parts || one.parts_at.is_some())
         })

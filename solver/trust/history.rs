@@ -35,7 +35,8 @@ impl Comparison {
             difference = difference.max(here);
         }
         let both = rows().count();
-        let parts = Verdict::of(run) != Verdict::of(other) || run.samples.len().abs_diff(other.samples.len()) > 1;
+        let parts = Verdict::up_to_the_end(run.status) != Verdict::up_to_the_end(other.status)
+            || run.samples.len().abs_diff(other.samples.len()) > 1;
         let last = |count: usize| run.samples[..count].last().map_or(0.0, |row| row.t);
         Comparison { parts_at: parts.then(|| last(both)), difference }
     }

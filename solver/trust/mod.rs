@@ -303,7 +303,9 @@ impl Trust {
                 format!("of {count} companions {}", counts.join(", "))
             }
         };
-        let known = match self.horizon >= self.ends_at && self.verdict == Verdict::MayOverturn {
+        let known = match self.horizon >= self.ends_at
+            && verdicts.iter().any(|(verdict, _)| *verdict == Some(Verdict::MayOverturn))
+        {
             true => "angles are known to the end of the run, but the column may be falling then".to_string(),
             false => format!("angles are known up to t = {:.4} s only", self.horizon),
         };

@@ -24,11 +24,18 @@ pub enum Verdict {
 impl Verdict {
     /// The verdict of a run.
     pub fn of(run: &Response) -> Verdict {
-        match run.status {
+        match Verdict::up_to_the_end(run.status) {
+            Verdict::Stands if run.may_overturn => Verdict::MayOverturn,
+            verdict => verdict,
+        }
+    }
+
+    /// The verdict on the time of a run that ended for this reason, whatever comes after it.
+    pub(super) fn up_to_the_end(status: StopReason) -> Verdict {
+        match status {
             status if status.overturns() => Verdict::Overturns,
             StopReason::Collapsed => Verdict::Collapses,
             StopReason::Undetermined => Verdict::Undetermined,
-            _ if run.may_overturn => Verdict::MayOverturn,
             _ => Verdict::Stands,
         }
     }
