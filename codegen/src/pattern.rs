@@ -36,6 +36,7 @@ impl Interface {
     pub const ORDER: [Interface; 3] = [Interface::Right, Interface::Closed, Interface::Left];
 
     /// `+1`, `0` or `-1`.
+    #[inline]
     pub fn sign(self) -> i8 {
         match self {
             Interface::Right => 1,
@@ -45,6 +46,7 @@ impl Interface {
     }
 
     /// The state with the sign of `value`; zero is closed.
+    #[inline]
     pub fn from_sign(value: i8) -> Interface {
         match value.signum() {
             1 => Interface::Right,
@@ -54,11 +56,13 @@ impl Interface {
     }
 
     /// Whether the interface pivots on a corner.
+    #[inline]
     pub fn is_open(self) -> bool {
         self != Interface::Closed
     }
 
     /// The state seen in a mirror.
+    #[inline]
     pub fn mirror(self) -> Interface {
         Interface::from_sign(-self.sign())
     }

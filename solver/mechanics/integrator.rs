@@ -11,6 +11,7 @@ use crate::numerics::ode::control::{Attempt, Part, StepControl, Tolerance, witho
 use crate::numerics::ode::explicit::{Explicit, System, Tableau};
 use crate::numerics::ode::interpolant::Interpolant;
 use crate::numerics::ode::taylor::{MAX_ORDER, SeriesSystem, Taylor};
+use crate::numerics::per_block::PerBlock;
 use crate::numerics::polynomial::difference::Difference;
 use crate::numerics::polynomial::track::Track;
 use crate::numerics::scalar::Scalar;
@@ -75,6 +76,8 @@ pub(crate) trait Forces {
     fn contact_forces(&mut self, t: f64, x: &[f64], which: Interfaces, forces: &mut [ContactForce]);
     /// Writes the contact forces at the end of the last attempt, which is at `t`, into `forces`.
     fn contact_forces_at_end(&mut self, t: f64, which: Interfaces, forces: &mut [ContactForce]);
+    /// Which closed interfaces, base first, surely stay closed within `reach` `[s]` of the start of the last attempt.
+    fn stay_closed(&self, margins: &Margins, reach: f64) -> PerBlock<bool>;
     /// Whether a closed interface opens within `reach` `[s]` of the start of the last attempt; `index` counts the closed interfaces, base first.
     fn opening(&self, margins: &Margins, index: usize, reach: f64) -> Opening;
     /// The closed form of a mode with one free angle, on a ground at rest; `None` without a free angle, or if gravity does not drive it.
@@ -279,7 +282,12 @@ impl<D: Dynamics + Send + Sync, M: Tableau> Forces for ExplicitSteps<D, M> {
         self.system.mode.contact_forces(self.method.end(), self.method.end_slope(), ground, which, forces);
     }
 
-    /// Unclear: dense output says nothing of accelerations.
+    /// None: dense output says nothing of accelerations.
+    fn stay_closed(&self, margins: &Margins, _: f64) -> PerBlock<bool> {
+        PerBlock::filled(false, margins.count())
+    }
+
+    /// Unclear, for the same reason.
     fn opening(&self, _: &Margins, _: usize, _: f64) -> Opening {
         Opening::Unclear
     }
@@ -444,6 +452,10 @@ impl<D: Dynamics + Send + Sync> Forces for TaylorSteps<D> {
 
     fn contact_forces_at_end(&mut self, t: f64, which: Interfaces, forces: &mut [ContactForce]) {
         self.system.driven.contact_forces(t, self.series.end().as_slice(), which, forces);
+    }
+
+    fn stay_closed(&self, margins: &Margins, reach: f64) -> PerBlock<bool> {
+        margins.stay_closed(&self.series, &self.system.ground, reach)
     }
 
     fn opening(&self, margins: &Margins, index: usize, reach: f64) -> Opening {

@@ -150,7 +150,8 @@ impl Phase {
     fn first_opening(&mut self, problem: &Problem, h: f64, end: f64, reach: f64) -> Option<(StepEvent, f64)> {
         let mut first: Option<(StepEvent, f64)> = None;
         self.last.margin_samples.clear();
-        for index in 0..self.linkage.closed.len() {
+        let stay_closed = self.integrator.stay_closed(&self.linkage.margins, reach * h);
+        for index in (0..self.linkage.closed.len()).filter(|index| !stay_closed[*index]) {
             let reach = first.map_or(reach, |(_, s)| s);
             if let Some(s) = self.opening_before(problem, [h, end], index, reach) {
                 first = Some((StepEvent::Contact { interface: self.linkage.closed[index] }, s));

@@ -10,9 +10,11 @@
 mod alone;
 mod coefficients;
 mod series;
+mod sizes;
 
 pub use coefficients::{MAX_ORDER, RECIPROCAL, reciprocal, turned};
 pub use series::SeriesSystem;
+pub use sizes::TermSizes;
 
 use super::control::{Attempt, Part, Tolerance, rough_root, without_remainder};
 use crate::numerics::polynomial::difference::Difference;
@@ -273,6 +275,22 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
     /// Coefficient of an angle's `θ̈` of one order, below [`Taylor::order`].
     pub fn acceleration(&self, order: usize, angle: usize) -> f64 {
         NUMBER[order + 1] * rate_of(&self.series.driver[order + 1].as_ref()[angle])
+    }
+
+    /// Per angle, sizes of the terms of `[c, s]` and of `[c̈, s̈]` at `reach` from the start of the last attempt.
+    pub fn sizes(&self, reach: f64) -> L::Of<[TermSizes; 2]> {
+        let mut sizes = self.series.of_each([TermSizes::default(); 2]);
+        let rates = &self.series.x.as_slice()[self.series.dof()..];
+        for (angle, (sizes, rate)) in sizes.as_mut().iter_mut().zip(rates).enumerate() {
+            let magnitudes = |order: usize| {
+                let factor = f64x2::splat(NUMBER[order + 1] * NUMBER[order + 2]);
+                factor * self.series.circle[order + 2].as_ref()[angle].abs()
+            };
+            let second = TermSizes::at(reach, self.order, magnitudes);
+            let later = reach * reach * (second.start / 2.0 + second.first / 6.0 + second.later / 12.0);
+            *sizes = [TermSizes { start: 1.0, first: reach * rate.abs(), later }, second];
+        }
+        sizes
     }
 
     /// State inside the last attempt, or the part of it up to an event, `s` from 0 to 1.
