@@ -131,6 +131,8 @@ impl Shape {
 ///       |     |     |
 ///          x⁻ ^     ^ x⁺
 /// ```
+///
+/// Blocks and interfaces count from zero, base first. Methods that take the number of one panic if the column does not have it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Unchecked")]
 pub struct Column {

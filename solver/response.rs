@@ -406,6 +406,9 @@ impl Response {
     /// Largest `|θ|` of each block over the slenderness of the stack from that block up, base first, dimensionless. Above one, the block has been
     /// past its balance; so it is from the start in a stack that does not stand by itself, whose share is infinite. Empty where nothing but the
     /// outcome is requested.
+    ///
+    /// # Panics
+    /// If `column` has fewer blocks than that of the run.
     pub fn peaks(&self, column: &Column) -> Vec<f64> {
         let share = |(block, peak): (usize, &f64)| match column.stack(block).slenderness() {
             slenderness if slenderness > 0.0 => peak / slenderness,

@@ -115,7 +115,8 @@ t_end = 1.0
 #[test]
 fn friction_that_no_contact_has() {
     let number = |value: &str| format!("friction = {value}\n{DRUMS}");
-    refused(&number("-0.1"), &["line 1", "`friction.static`", "-0.1 is out of range", "zero or above"]);
+    refused(&number("-0.1"), &["line 1", "`friction.static`", "-0.1 is out of range", "from zero to 1e100"]);
+    refused(&number("1e300"), &["line 1", "1e300 is out of range"]);
     refused(&number("nan"), &["line 1", "`friction`", "not finite", "give a finite number"]);
     refused(&number("inf"), &["line 1", "`friction`", "not finite", "give a finite number"]);
     refused(&number("\"rough\""), &["line 1", "`friction`", "text stands here", "give a number"]);
@@ -173,6 +174,19 @@ fn tapered_blocks_of_no_width() {
         &block("bottom_half_width = 0.4"),
         &["line 1", "`block[1].top_half_width`", "it is missing", "half_width for both"],
     );
+}
+
+/// A width of one side replaces the one that is given for both.
+#[test]
+fn a_width_of_both_sides_may_stand_beside_that_of_one() {
+    let block = |keys: &str| format!("[[block]]\n{keys}\nhalf_height = 1.0\nmass = 10.0\n[solver]\nt_end = 1.0\n");
+    for [short, long] in [
+        ["half_width = 0.5\nbottom_half_width = 0.6", "bottom_half_width = 0.6\ntop_half_width = 0.5"],
+        ["half_width = 0.5\ntop_half_width = 0.4", "bottom_half_width = 0.5\ntop_half_width = 0.4"],
+    ] {
+        let read = |keys| rocking::Scene::from_toml(&block(keys), "scene.toml".as_ref()).expect("a valid scene").column;
+        assert_eq!(read(short), read(long), "{short}");
+    }
 }
 
 #[test]

@@ -181,4 +181,17 @@ fn stacks_that_do_not_stand_by_themselves_are_named() {
     );
     folder.write("s.toml", scene("[0, 0.1, 0]"));
     assert!(!folder.succeeds("check s.toml").contains("stand by itself"));
+
+    // Beyond the edge of the base, there is no acceleration that opens it.
+    let leaning = scene("[0, 0.45, 0.45]");
+    for (motion, key) in [
+        ("kind = \"sine-pulse\"\namplitude_uplift = 2.0\nperiod = 0.5\n", "amplitude_uplift"),
+        ("kind = \"synthetic\"\npga_uplift = 2.0\n", "pga_uplift"),
+    ] {
+        folder.write("s.toml", format!("{leaning}[excitation.horizontal]\n{motion}"));
+        folder.refused(
+            "check s.toml",
+            &[key, "the column does not stand by itself: no acceleration of the ground opens its base"],
+        );
+    }
 }

@@ -76,6 +76,14 @@ fn sweeps_and_clouds_have_a_fragility() {
     assert_eq!((&found["measure"], &found["fragilities"][0]["layout"]), (&"pgv".into(), &"stripes".into()));
     let counts = found["fragilities"][0]["counts"].as_array().expect("a list");
     assert_eq!(counts.iter().map(|count| count["runs"].as_u64()).collect::<Vec<_>>(), [Some(8); 4]);
+    // Of one record, there is no curve: a sweep that changes nothing else of the ground motion is of one record as well.
+    folder.write(
+        "one.toml",
+        sweep.replace("seed = { from = 1, to = 8 }\n", "").replace("0.2, 0.4", "0.1, 0.2, 0.3, 0.4, 0.5"),
+    );
+    folder.succeeds("sweep one.toml --out one.csv --quiet");
+    let told = folder.succeeds("fragility one.csv --state overturned");
+    assert_has(&told, &["all runs are of one record"]);
     // Runs each at a level of its own.
     let mut cloud = String::from("record,pga_g,outcome\n");
     for k in 0..50 {

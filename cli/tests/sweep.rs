@@ -174,6 +174,14 @@ fn bad_sweeps_name_file_line_key_and_remedy() {
             vec!["line 4", "`excitation.horizontal.amplitude_g` is an axis as well", "remove one"],
         ),
         ("scene = \"base.toml\"\n[axes]\neta = [0.5]\n\"restitution.eta\" = [0.7]\n", vec!["line 4", "axis as well"]),
+        (
+            "scene = \"base.toml\"\n[axes]\nfriction = [0.5]\n\"friction.static\" = [0.7]\n",
+            vec!["line 4", "`friction` is an axis as well"],
+        ),
+        (
+            "scene = \"base.toml\"\n[axes]\n\"friction.kinetic\" = [0.2]\nfriction = [0.7]\n",
+            vec!["line 4", "`friction.kinetic` is an axis as well"],
+        ),
     ] {
         let folder = folder(sweep);
         failed(&folder.rocking("sweep sweep.toml --out t.csv"), 2, sweep, &named);

@@ -13,6 +13,11 @@ pub enum RecordError {
     /// A record needs two samples to have a duration.
     #[error("{count} sample(s): a record needs at least two")]
     TooShort { count: usize },
+    /// The samples of a text may all be in one row.
+    #[error(
+        "line {line}: {count} numbers are in the only row, and a row is one sample; write one value per line, or time and acceleration"
+    )]
+    OneRow { line: usize, count: usize },
     /// Fewer than two samples are between two times.
     #[error(
         "from {from} s to {to} s the record has {count} sample(s): it lasts {duration} s, and needs at least two; give other times"

@@ -545,6 +545,10 @@ fn tables_are_refused_where_they_leave_a_choice_or_are_uneven() {
         ("", "the file is empty"),
         (" \n# nothing\n", "the file is empty"),
         ("# nothing\n0 1\n", "1 sample(s)"),
+        (
+            "# a remark\n0.1 0.2 0.3 0.2\n",
+            "line 2: 4 numbers are in the only row, and a row is one sample; write one value per line",
+        ),
         ("t [s], v [m/s]\n0, 1\n0.1, 2\n", "`m/s` of column `v`"),
         ("time (frames), a [g]\n0, 1\n1, 2\n", "line 1: `frames` of column `time` is no unit of time"),
         ("t, a, b\n0, 1\n0.1, 2\n", "line 1: 3 name(s) above 2 column(s)"),

@@ -240,9 +240,6 @@ impl Runs<'_> {
         slides: ArrayView1<'_, f64>,
     ) -> Result<Observation, String> {
         let level = self.levels[run];
-        if !(level.is_finite() && level > 0.0) {
-            return Err(format!("the level {level} is not a number above zero"));
-        }
         // Columns of blocks that this run's column does not have are blank, at the end.
         let numbers = |row: ArrayView1<'_, f64>| {
             let filled = row.iter().rposition(|number| !number.is_nan()).map_or(0, |last| last + 1);

@@ -108,6 +108,13 @@ pub fn slide_and_gap_rates_of(chain: &Chain, apart_rate: Vec2, omega: &[f64], co
     view.velocity(apart_rate, omega).map(|v| view.sign * v)
 }
 
+/// Rate at which a corner moves out beyond the end of the face, or in over it `[m/s]`.
+pub fn outward_rate(chain: &Chain, rates: &Rates, corner: Corner) -> f64 {
+    let view = View::of(chain, corner);
+    let [along, _] = view.velocity(rates.apart[corner.interface], &rates.omega);
+    view.position()[0].signum() * along
+}
+
 /// Second derivatives of slide and gap `[m/s²]`, from first and second derivatives of the free interface's translations and of the blocks' angles.
 pub fn slide_and_gap_accelerations(
     chain: &Chain,

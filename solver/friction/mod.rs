@@ -78,8 +78,8 @@ impl Friction {
                 let problem = format!("{} number(s) for {blocks} interface(s)", list.len());
                 return Some((key, problem, "give one for all, or one per interface, base first"));
             }
-            if let Some(value) = list.iter().find(|value| !(value.is_finite() && **value >= 0.0)) {
-                return Some((key, format!("{value} is out of range"), "give a finite number, zero or above"));
+            if let Some(value) = list.iter().find(|value| !(0.0..=LARGEST_COEFFICIENT).contains(*value)) {
+                return Some((key, format!("{value:?} is out of range"), "give a number from zero to 1e100"));
             }
         }
         let Coefficients { fixed, kinetic } = self.per_interface(blocks);
@@ -95,6 +95,9 @@ impl Friction {
         Coefficients { fixed: all(&self.fixed), kinetic: all(&self.kinetic) }
     }
 }
+
+/// Largest coefficient of friction: far beyond any that is used up. With much larger ones, forces leave the range of doubles.
+const LARGEST_COEFFICIENT: f64 = 1e100;
 
 /// Depth inside another block that a corner may have, at a landing and in an initial state, as a share of [`Column::size`].
 /// The search for a landing ends at far smaller depths.

@@ -90,8 +90,8 @@ pub(crate) fn mask(pattern: &Pattern) -> usize {
     pattern.0.iter().rev().fold(0, |mask, interface| 2 * mask + usize::from(interface.is_open()))
 }
 
-/// The mode of a pattern on a step program and the scene constants of its linkage; `None` if there are no equations for it,
-/// or `P` has another number of free angles. Called by generated modules.
+/// The mode of a pattern on a step program and the scene constants of its linkage; `None` if there are no equations for it, `P` has another number of
+/// free angles, or the pattern is that of another number of blocks. Called by generated modules.
 pub fn generated_mode<P: Program + 'static>(
     column: &Column,
     pattern: &Pattern,
@@ -99,7 +99,7 @@ pub fn generated_mode<P: Program + 'static>(
     linkages: Linkages,
 ) -> Option<Mode> {
     let dynamics = GeneratedMode::<P>::new(column, pattern, ground, linkages)?;
-    Some(Mode::from_dynamics(pattern.clone(), dynamics))
+    Some(Mode::from_dynamics(pattern.clone(), column.gravity(), dynamics))
 }
 
 /// A step program as the solver runs it.
@@ -165,6 +165,9 @@ impl<P: Program> GeneratedMode<P> {
         ground: GroundMotion,
         linkages: Linkages,
     ) -> Option<GeneratedMode<P>> {
+        if pattern.0.len() != column.len() {
+            return None;
+        }
         let offset = |interface: usize| pivot(column, pattern, interface);
         let forces =
             |equations: &InterfaceEquations<f64>, geometry: &Geometry<f64>, interface: usize| InterfaceForces {
@@ -284,9 +287,6 @@ impl Mode {
     /// The mode of a pattern on generated equations, for any ground motion; `None` at rest, for columns larger than this build has, and for a
     /// pattern of another number of interfaces.
     pub fn generated(column: &Column, pattern: &Pattern) -> Option<Mode> {
-        if pattern.0.len() != column.len() {
-            return None;
-        }
         equations::mode(column, pattern, GroundMotion::WithVertical)
     }
 

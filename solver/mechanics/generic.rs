@@ -49,7 +49,7 @@ impl Mode {
     /// The mode of a pattern on hand-written equations, for any number of blocks; `None` at rest, and for a pattern of another number of interfaces.
     pub fn generic(column: &Column, pattern: &Pattern) -> Option<Mode> {
         (pattern.dof() > 0 && pattern.0.len() == column.len())
-            .then(|| Mode::from_dynamics(pattern.clone(), GenericMode::new(column, pattern)))
+            .then(|| Mode::from_dynamics(pattern.clone(), column.gravity(), GenericMode::new(column, pattern)))
     }
 }
 

@@ -14,8 +14,11 @@ use std::fmt;
 use std::sync::Arc;
 
 /// A mode of a column, on generated or generic equations. States are `[θ, θ̇]` of the free angles, base first, length 2·dof.
+#[derive(Clone)]
 pub struct Mode {
     pattern: Pattern,
+    /// Of the column `[m/s²]`.
+    gravity: f64,
     equations: Arc<dyn Erased>,
 }
 
@@ -29,9 +32,6 @@ impl fmt::Debug for Mode {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct IntegrateOptions {
-    /// Gravity `[m/s²]`: 9.81 unless given, whatever the gravity of the column ([`Column::gravity`](crate::Column::gravity)), which a mode of `Mode::new`
-    /// does not know. Generated equations without vertical ground motion have the column's gravity in their constants.
-    pub gravity: f64,
     /// Method.
     pub method: Method,
     /// Relative tolerance of a step, dimensionless.
@@ -51,13 +51,7 @@ impl IntegrateOptions {
 
 impl Default for IntegrateOptions {
     fn default() -> IntegrateOptions {
-        IntegrateOptions {
-            gravity: rocking_ground::DEFAULT_GRAVITY,
-            method: Method::Auto,
-            rtol: 1e-9,
-            atol: 1e-12,
-            step: 1e-3,
-        }
+        IntegrateOptions { method: Method::Auto, rtol: 1e-9, atol: 1e-12, step: 1e-3 }
     }
 }
 
@@ -95,8 +89,10 @@ pub enum IntegrateError {
         /// Value given.
         value: f64,
     },
-    /// A tolerance or a step is not a finite number above zero, `rtol` is below [`TIGHTEST_RTOL`], or gravity is not finite.
-    #[error("{name} = {value:e} is out of range; give a finite number above zero, for rtol at least {TIGHTEST_RTOL:e}")]
+    /// A tolerance or a step is not a finite number above zero, `rtol` is below [`TIGHTEST_RTOL`], or the step is so small that it hardly advances the time.
+    #[error(
+        "{name} = {value:e} is out of range; give a finite number above zero, for rtol at least {TIGHTEST_RTOL:e}, for step at least {SHORTEST_STEP:e} of the time"
+    )]
     Options {
         /// Name of the field of [`IntegrateOptions`].
         name: &'static str,
@@ -180,9 +176,9 @@ impl<D: Dynamics + Send + Sync + 'static> Erased for D {
 }
 
 impl Mode {
-    /// A mode on equations of one's own: dynamics that belong to the pattern.
-    pub fn from_dynamics(pattern: Pattern, dynamics: impl Dynamics + Send + Sync + 'static) -> Mode {
-        Mode { pattern, equations: Arc::new(dynamics) }
+    /// A mode on equations of one's own: dynamics that belong to the pattern, integrated with this gravity `[m/s²]`.
+    pub fn from_dynamics(pattern: Pattern, gravity: f64, dynamics: impl Dynamics + Send + Sync + 'static) -> Mode {
+        Mode { pattern, gravity, equations: Arc::new(dynamics) }
     }
 
     /// The integrator of a method in this mode, with gravity `[m/s²]`; `step` `[s]` is for methods without step control.
@@ -195,7 +191,12 @@ impl Mode {
         &self.pattern
     }
 
-    /// `[θ̇, θ̈]` at a state.
+    /// Gravity of the column `[m/s²]`, with which the mode is integrated.
+    pub fn gravity(&self) -> f64 {
+        self.gravity
+    }
+
+    /// `[θ̇, θ̈]` at a state. Generated equations for horizontal ground motion alone have the column's gravity in their constants and ignore that of `ground`.
     ///
     /// # Panics
     /// If `x` has not length 2·dof.
@@ -253,11 +254,11 @@ impl Mode {
         options: &IntegrateOptions,
     ) -> Result<Vec<Vec<f64>>, IntegrateError> {
         self.check_state(x)?;
-        options.check()?;
+        options.check(times)?;
         check_times(times, segments)?;
         let (Some(&first), Some(&last)) = (times.first(), times.last()) else { return Ok(Vec::new()) };
         let tolerance = Tolerance { rtol: options.rtol, atol: options.atol };
-        let mut integrator = self.integrator(options.method, options.gravity, options.rtol, options.step);
+        let mut integrator = self.integrator(options.method, self.gravity, options.rtol, options.step);
         let (mut t, mut states) = (first, vec![x.to_vec()]);
         let (mut suggested, mut has_begun) = (f64::INFINITY, false);
         for segment in segments.iter().filter(|segment| segment.end > first) {
@@ -283,6 +284,9 @@ impl Mode {
                 longest = f64::INFINITY;
                 integrator.accept();
                 let reached = if attempt.h == left { end } else { t + attempt.h };
+                if reached <= t {
+                    return Err(IntegrateError::StepTooSmall { time: t, step: attempt.h });
+                }
                 while let Some(time) = times.get(states.len()).filter(|time| **time <= reached) {
                     let mut state = x.to_vec();
                     integrator.state_inside(Part::Attempt, ((time - t) / attempt.h).min(1.0), &mut state);
@@ -311,13 +315,13 @@ impl Mode {
 }
 
 impl IntegrateOptions {
-    /// Refuses tolerances, steps and gravity with which an integration would not end.
-    fn check(&self) -> Result<(), IntegrateError> {
+    /// Refuses tolerances, and steps with which an integration over these times would hardly end.
+    fn check(&self, times: &[f64]) -> Result<(), IntegrateError> {
+        let shortest = SHORTEST_STEP * times.last().zip(times.first()).map_or(0.0, |(last, first)| last - first);
         let sizes = [
             ("rtol", self.rtol, TIGHTEST_RTOL),
             ("atol", self.atol, f64::MIN_POSITIVE),
-            ("step", self.step, f64::MIN_POSITIVE),
-            ("gravity", self.gravity, f64::MIN),
+            ("step", self.step, if self.method.has_step_control() { 0.0 } else { shortest }.max(f64::MIN_POSITIVE)),
         ];
         let is_size = |value: f64, least: f64| value.is_finite() && value >= least;
         match sizes.into_iter().find(|(_, value, least)| !is_size(*value, *least)) {
@@ -326,6 +330,9 @@ impl IntegrateOptions {
         }
     }
 }
+
+/// Shortest step of methods without step control, as a share of the time integrated: a billion steps take minutes.
+const SHORTEST_STEP: f64 = 1e-9;
 
 /// Refuses times that do not ascend, and segments that do not cover them.
 fn check_times(times: &[f64], segments: &[Segment]) -> Result<(), IntegrateError> {
@@ -337,9 +344,7 @@ fn check_times(times: &[f64], segments: &[Segment]) -> Result<(), IntegrateError
         }
         least = time;
     }
-    let (Some(&first), Some(&last)) = (times.first(), times.last()) else { return Ok(()) };
-    let is_gap = |pair: &&[Segment]| pair[0].end != pair[1].start && pair[0].end < last && pair[1].start > first;
-    match segments.windows(2).find(is_gap) {
+    match segments.windows(2).find(|pair| pair[0].end != pair[1].start) {
         Some(pair) => Err(IntegrateError::Gap { time: pair[0].end }),
         None => Ok(()),
     }
@@ -367,11 +372,35 @@ mod tests {
             IntegrateOptions { method: Method::RungeKutta4, step: 0.0, ..usual },
             IntegrateOptions { rtol: f64::NAN, ..usual },
             IntegrateOptions { atol: -1.0, ..usual },
+            IntegrateOptions { method: Method::RungeKutta4, step: 1e-20, ..usual },
         ] {
             let refused = run(&segments, &options);
             assert!(matches!(refused, Err(IntegrateError::Options { .. })), "{refused:?}");
         }
+        let reversed: Vec<Segment> = segments.iter().rev().cloned().collect();
+        assert!(matches!(run(&reversed, &usual), Err(IntegrateError::Gap { .. })));
         segments.remove(1);
         assert_eq!(run(&segments, &usual), Err(IntegrateError::Gap { time: 0.2 }));
+    }
+
+    /// On the Moon, all methods and both kinds of equations have one answer.
+    #[test]
+    fn a_mode_has_the_gravity_of_its_column() {
+        let moon = Column::equal_blocks(1, 0.4, 1.6, 1.0, 1.62).expect("valid");
+        let pattern = Pattern::from_signs(&[1]);
+        let still = Excitation::default().segments(1.0);
+        let horizontal = (crate::generated::EQUATIONS.mode)(&moon, &pattern, crate::GroundMotion::Horizontal);
+        let modes = [Mode::new(&moon, &pattern), Mode::generic(&moon, &pattern), horizontal];
+        let end = |mode: &Mode, method| {
+            let options = IntegrateOptions { method, ..IntegrateOptions::default() };
+            mode.integrate(&[0.1, 0.0], &still, &[0.0, 0.5], &options).expect("solved")[1][0]
+        };
+        let expected = end(modes[0].as_ref().expect("a mode"), Method::Taylor);
+        assert!((expected - 0.0864927).abs() < 1e-6, "{expected}");
+        for mode in modes.into_iter().flatten() {
+            for method in [Method::Auto, Method::Dop853, Method::RungeKutta4] {
+                assert!((end(&mode, method) - expected).abs() < 1e-9, "{method:?}");
+            }
+        }
     }
 }

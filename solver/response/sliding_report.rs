@@ -27,8 +27,8 @@ pub struct SlidingReport {
     pub impact_losses: f64,
     /// Work of the ground's inertial forces on the column `[J]`. While everything sticks, it is the change of energy plus the losses at impacts.
     pub ground_work: f64,
-    /// Work of the ground on the column and of the column on the ground, added up without signs `[J]`: the work of a ground that gives and takes back the same
-    /// energy is rounding, this is not.
+    /// Works of the ground in each part of the run in which everything sticks, and in each step in which something slides or flies, added up without signs
+    /// `[J]`. It depends on the steps: a scale for the balance, where the ground takes back as much as it gives.
     #[serde(default)]
     pub ground_exchange: f64,
     /// Energy at the end less that at the start, relative to the ground `[J]`.

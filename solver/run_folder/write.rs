@@ -39,7 +39,8 @@ pub struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    /// A run with its warnings, without scene file, duration, or outdated files.
+    /// A run with its warnings, without scene file, duration, or outdated files. The response must be that of the scene: [`Folder::write`] panics if it has
+    /// another number of blocks.
     pub fn new(scene: &'a Scene, response: &'a Response) -> Run<'a> {
         let mut warnings = scene.excitation.warnings();
         warnings.extend(cut(scene, response));

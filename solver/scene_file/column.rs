@@ -209,9 +209,6 @@ fn sizes(table: &mut Table) -> Result<Sizes, Wrong> {
         (None | Some("prism"), None) => Shape::Prism,
         (Some(other), _) => return Err(table.no_such("shape", "shape", other, &["prism", "drum"])),
     };
-    if let (Some((other, _)), Some((key, _))) = (both, bottom) {
-        return Err(table.clash(key, other));
-    }
     let half_widths = match (bottom.or(both), top.or(both)) {
         (Some((_, bottom)), Some((_, top))) => [bottom, top],
         (None, None) => return Err(table.missing("half_width", "give it in m, or `width`, or `diameter`")),

@@ -150,7 +150,10 @@ pub fn exclude_each_other(a: &str, b: &str) -> bool {
         (table.to_string(), without_index(name).to_string())
     };
     let ((table, name), (other_table, other_name)) = (parts(a), parts(b));
+    let is_short_form = |short: &str, table: &str| SHORT_FORMS.iter().any(|(key, _)| short == *key && table == *key);
     table == other_table && name != other_name && are_alternatives(&name, &other_name)
+        || is_short_form(a, &other_table)
+        || is_short_form(b, &table)
 }
 
 fn are_alternatives(a: &str, b: &str) -> bool {

@@ -69,7 +69,20 @@ pub(super) fn set_amplitude(excitation: &mut Excitation, key: &str, value: f64, 
     let unit = amplitude_units(column.gravity(), column.uplift_acceleration(0))[place];
     let Some(own) = motion.as_mut().and_then(Motion::amplitude_mut) else { return false };
     *own = value * unit;
-    own.abs() <= LARGEST
+    unit > 0.0 && own.abs() <= LARGEST
+}
+
+/// Refuses keys whose unit is the acceleration that opens the base of a column that does not stand by itself: there is none.
+pub(super) fn check_uplift(table: &Table, column: &Column) -> Result<(), Wrong> {
+    let has_unit = column.uplift_acceleration(0) > 0.0;
+    match table.keys().into_iter().find(|key| !has_unit && key.ends_with("_uplift")) {
+        Some(key) => Err(table.wrong(
+            &key,
+            "the column does not stand by itself: no acceleration of the ground opens its base".into(),
+            "give the size in m/s² or g, or other slides",
+        )),
+        None => Ok(()),
+    }
 }
 
 impl Reader<'_> {
@@ -97,6 +110,7 @@ impl Reader<'_> {
     }
 
     fn motion(&self, table: &mut Table, column: &Column) -> Result<Motion, Fault> {
+        check_uplift(table, column)?;
         let Some((kind, _)) = table.text("kind")? else {
             return Err(table.missing("kind", &format!("choose one of {}", KINDS.join(", "))).into());
         };

@@ -3,7 +3,7 @@
 //! A record is named by its folder and by what the names of its files have in common: `records/RSN1045` of `RSN1045_NORTHR_WPI046.AT2`,
 //! `RSN1045_NORTHR_WPI316.AT2` and `RSN1045_NORTHR_WPI-UP.AT2` ([`record_and_component`]).
 
-use super::excitation::{start, target, text_options};
+use super::excitation::{check_uplift, start, target, text_options};
 use super::fault::Fault;
 use super::reader::Reader;
 use super::table::{Table, Wrong};
@@ -100,6 +100,7 @@ impl Reader<'_> {
 
     /// `[excitation.station]`: components of one record, all scaled by one factor, that of the horizontal one.
     pub(super) fn station(&self, table: &mut Table, column: &Column) -> Result<Excitation, Fault> {
+        check_uplift(table, column)?;
         let options = text_options(table, column.gravity())?;
         let remedy = "give folder and name of the record without its component, e.g. \"records/RSN1045\"";
         let name = table.text("record")?.ok_or_else(|| table.missing("record", remedy))?.0;

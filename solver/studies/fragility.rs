@@ -116,7 +116,7 @@ impl Fragility {
     /// ```
     ///
     /// # Panics
-    /// If `options.confidence` is not between 0 and 1.
+    /// If `options.confidence` is not between 0 and 1, or the level of a run is not a finite number above zero.
     pub fn of(runs: &[Observation], state: LimitState, options: &FragilityOptions) -> Fragility {
         let found = Fragility::of_observed(runs, state, options, || ControlFlow::Continue(()));
         found.expect("nothing ends the resampling")
@@ -125,7 +125,7 @@ impl Fragility {
     /// As [`Fragility::of`]; `progress` is called before each replicate, on all threads. `None` once it breaks.
     ///
     /// # Panics
-    /// If `options.confidence` is not between 0 and 1.
+    /// If `options.confidence` is not between 0 and 1, or the level of a run is not a finite number above zero.
     pub fn of_observed(
         runs: &[Observation],
         state: LimitState,
@@ -134,6 +134,8 @@ impl Fragility {
     ) -> Option<Fragility> {
         let is_share = options.confidence > 0.0 && options.confidence < 1.0;
         assert!(is_share, "a confidence of {} is not between 0 and 1", options.confidence);
+        let wrong = runs.iter().find(|run| !(run.level.is_finite() && run.level > 0.0));
+        assert!(wrong.is_none(), "a level that is not above zero: {wrong:?}");
         let table = Table::of(runs, state);
         let counts = table.counts();
         let levels_with_runs = counts.iter().filter(|count| count.runs + count.undecided > 0).count();

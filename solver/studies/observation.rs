@@ -10,7 +10,7 @@ use std::str::FromStr;
 pub struct Observation {
     /// Name of the record.
     pub record: String,
-    /// Size of the ground motion in the measure of the study.
+    /// Size of the ground motion in the measure of the study, above zero.
     pub level: f64,
     /// What became of the column; `None` for a run that failed.
     pub fate: Option<Fate>,
@@ -48,7 +48,7 @@ impl Observation {
 pub struct Cells<'t> {
     /// The name of the record, from the cells of [`record_columns`].
     pub record: String,
-    /// Size of the ground motion in the measure of the study.
+    /// Size of the ground motion in the measure of the study, above zero.
     pub level: f64,
     /// The column `outcome`; `None` and `error` stand for a run that failed.
     pub outcome: Option<&'t str>,
@@ -63,7 +63,7 @@ pub struct Cells<'t> {
 }
 
 /// A cell of a table of runs has a word that is none of its column.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum WrongCell {
     /// No outcome of a run.
@@ -71,6 +71,12 @@ pub enum WrongCell {
     Outcome {
         /// The word.
         found: String,
+    },
+    /// A level that is not a finite number above zero.
+    #[error("the level {level} is not a number above zero")]
+    Level {
+        /// The level.
+        level: f64,
     },
     /// Nothing about the trust in a run.
     #[error("column `trust`: `{found}` is neither determined nor not-determined")]
@@ -85,6 +91,9 @@ impl TryFrom<Cells<'_>> for Observation {
 
     fn try_from(cells: Cells<'_>) -> Result<Observation, WrongCell> {
         let Cells { record, level, outcome, trust, has_uplift, peaks, residual_slides } = cells;
+        if !(level.is_finite() && level > 0.0) {
+            return Err(WrongCell::Level { level });
+        }
         let fate = match outcome {
             None | Some(ERROR) => None,
             Some(name) => Some(Fate::parse(name).ok_or_else(|| WrongCell::Outcome { found: name.into() })?),

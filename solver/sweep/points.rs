@@ -303,12 +303,12 @@ impl Sweep {
         }
     }
 
-    /// Number of points.
+    /// Number of points; the largest number there is if there are more.
     pub fn len(&self) -> usize {
         let lengths = |axes: &[Axis]| axes.iter().map(|axis| axis.values.len()).collect::<Vec<_>>();
         match self.combine {
             Combine::Paired => lengths(&self.axes).into_iter().min().unwrap_or(0),
-            _ => lengths(self.grid()).into_iter().product::<usize>() * self.samples().unwrap_or(1),
+            _ => lengths(self.grid()).into_iter().fold(self.samples().unwrap_or(1), usize::saturating_mul),
         }
     }
 

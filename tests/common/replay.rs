@@ -73,8 +73,7 @@ pub fn drift(column: &Column, pattern: &Pattern, theta: &[f64], omega: &[f64], s
     let turn = span.signum();
     let mut x = links_of(pattern, theta, omega);
     x[pattern.dof()..].iter_mut().for_each(|rate| *rate *= turn);
-    let mut options = IntegrateOptions::with_tolerances(1e-14, 1e-17);
-    options.gravity = column.gravity();
+    let options = IntegrateOptions::with_tolerances(1e-14, 1e-17);
     let still = Excitation::default().segments(span.abs().max(f64::MIN_POSITIVE));
     let mut states = mode.integrate(&x, &still, &[0.0, span.abs()], &options).expect("smooth");
     let mut end = states.pop().expect("two times");
@@ -110,8 +109,7 @@ fn phase(
     found.phases += 1;
     let mode = Mode::generic(column, pattern).expect("it moves");
     let mut x = links_of(pattern, theta, omega);
-    let mut options = IntegrateOptions::with_tolerances(1e-13, 1e-16);
-    options.gravity = column.gravity();
+    let options = IntegrateOptions::with_tolerances(1e-13, 1e-16);
     for segment in segments.iter().filter(|segment| segment.end > *t && segment.start < event.t) {
         let (from, until) = (segment.start.max(*t), segment.end.min(event.t));
         let times: Vec<f64> = (0..=PLACES)

@@ -3,8 +3,9 @@
 use super::{GRAVITY, run, scene};
 use approx::assert_relative_eq;
 use rocking::ground::Motion;
+use rocking::response::Event;
 use rocking::{Block, DynamicsSource, EventKind, Method, Restitution, StopReason};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Housner's landing sticks if `μ ≥ 3t/(4 + t²)`.
 #[test]
@@ -249,4 +250,56 @@ fn blocks_jam_where_the_rows_become_singular() {
             }
         }
     }
+}
+
+/// Blocks of one width that lie on each other and approach strike at once: their corners are flush with the ends of the faces, whose distance from them stays
+/// zero. The blocks went through each other, and the run called it a collapse.
+#[test]
+fn flush_blocks_that_approach_strike() {
+    for (rates, turn) in [([0.0, -1.0], 0.0), ([0.0, -1e-6], 0.0), ([-1.0, -0.5], 0.0), ([-0.2, -0.7], 0.03)] {
+        for method in [Method::Auto, Method::Dop853, Method::RungeKutta4] {
+            let mut scene = scene(vec![Block::rectangle(0.25, 0.5, 1.0); 2], vec![0.5; 2]);
+            let (sin, cos) = f64::sin_cos(turn);
+            scene.initial.theta = vec![turn; 2];
+            scene.initial.x = vec![0.5 * sin, 1.5 * sin];
+            scene.initial.y = vec![0.25 * sin + 0.5 * cos, 0.25 * sin + 1.5 * cos];
+            (scene.initial.vx, scene.initial.vy) = (vec![0.0; 2], rates.to_vec());
+            (scene.options.method, scene.options.t_end) = (method, 3.0);
+            let response = run(&scene);
+            let what = format!("{method:?}, {rates:?}, {turn}: {:?}", response.status);
+            assert!(matches!(response.status, StopReason::AtRest | StopReason::EndOfTime), "{what}");
+            let is_struck = |event: &Event| event.interface == Some(2) || event.interfaces.contains(&2);
+            let first = response.events.iter().find(|event| is_struck(event)).expect("they strike");
+            assert!(first.kind == EventKind::Landing && first.t == 0.0, "{what}: {first:?}");
+        }
+    }
+}
+
+/// The share of energy that an event takes is that of its own velocities, the ends of low hops included.
+#[test]
+fn the_energy_of_an_impact_includes_the_end_of_low_hops() {
+    let mut scene = scene(vec![Block::rectangle(0.4, 1.6, 1171.875), Block::rectangle(0.4, 0.4, 1250.0)], vec![0.3; 2]);
+    scene.excitation.horizontal =
+        Some(Motion::Harmonic { amplitude: 0.45 * GRAVITY, omega: 4.0 * PI, start: 0.0, phase: 0.0 });
+    (scene.options.t_end, scene.options.stick_angle) = (8.0, 1e-4);
+    let response = run(&scene);
+    let mut impacts = 0;
+    for event in response.events.iter().filter(|event| event.states_after.is_some() && event.impulses.len() == 2) {
+        let kinetic = |after: bool| {
+            let of_block = |index: usize| {
+                let (block, own) = (&scene.column.blocks()[index], &event.blocks[index]);
+                let ([x, y], omega) = match after {
+                    true => (own.velocity_after, event.omega_after[index]),
+                    false => (own.velocity_before, event.omega_before[index]),
+                };
+                0.5 * (block.mass * (x * x + y * y) + block.inertia * omega * omega)
+            };
+            of_block(0) + of_block(1)
+        };
+        let (before, lost) = (kinetic(false), event.energy_lost.expect("an impact"));
+        // Energies are of centroids and angles, in sums of a dozen terms.
+        assert!((before - kinetic(true) - lost * before).abs() < 1e-9 * before, "{event:?}");
+        impacts += 1;
+    }
+    assert!(impacts > 20, "{impacts}");
 }

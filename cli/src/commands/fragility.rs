@@ -219,6 +219,17 @@ impl Columns {
         given.iter().map(|(name, value)| Ok((place(name)?, value.as_str()))).collect()
     }
 
+    /// The name of the record of a row. Without a column of records, the rows of a sweep that changes nothing of the ground motion but the measure are of the
+    /// scene's record, and each row of any other table has a record of its own.
+    fn record_of(&self, row: &StringRecord, number: usize) -> String {
+        let changes_motion = || self.others.iter().any(|place| self.names[*place].starts_with("excitation."));
+        match &self.records[..] {
+            [] if self.has_index && !changes_motion() => "the scene's".into(),
+            [] => format!("run {}", number + 1),
+            columns => columns.iter().map(|place| &row[*place]).collect::<Vec<_>>().join(", "),
+        }
+    }
+
     /// The run of a row, counted from zero. The error says what is wrong with a cell.
     fn observation(&self, row: &StringRecord, number: usize) -> Result<Observation, String> {
         let wrong =
@@ -231,7 +242,7 @@ impl Columns {
             places[..filled].iter().map(|place| row[*place].parse().map_err(|_| wrong(*place, "a number"))).collect()
         };
         let cells = Cells {
-            record: record_of(row, &self.records, number),
+            record: self.record_of(row, number),
             level: level.ok_or_else(|| wrong(self.level, "a number above zero"))?,
             outcome: Some(&row[self.outcome]),
             trust: self.trust.map(|trust| &row[trust]),
@@ -270,14 +281,6 @@ fn last_part(heading: &str) -> String {
 
 fn is_measure(name: &str) -> bool {
     name.parse::<Intensity>().is_ok()
-}
-
-/// The name of the record of a row. Without a column of records, each row has a record of its own.
-fn record_of(row: &StringRecord, columns: &[usize], number: usize) -> String {
-    match columns {
-        [] => format!("run {}", number + 1),
-        columns => columns.iter().map(|place| &row[*place]).collect::<Vec<_>>().join(", "),
-    }
 }
 
 /// Paths of the two tables beside the table of a study: of fragility curves and of shares.

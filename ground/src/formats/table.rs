@@ -93,8 +93,10 @@ impl Rows {
 /// Reads a table.
 pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordError> {
     let rows = rows(lines, options)?;
-    if rows.lines.len() < 2 {
-        return Err(RecordError::TooShort { count: rows.lines.len() });
+    match rows.lines[..] {
+        [line] if rows.columns > 2 => return Err(RecordError::OneRow { line, count: rows.columns }),
+        [] | [_] => return Err(RecordError::TooShort { count: rows.lines.len() }),
+        _ => {}
     }
     let headings = &rows.headings.1;
     if !headings.is_empty() && headings.len() != rows.columns {

@@ -106,12 +106,7 @@ impl PendingTransition<'_> {
         answer.motion.give(&mut self.now);
         self.stop_slides_without_direction();
         self.part_coinciding_corners();
-        let energy = motion.energy(self.column());
-        let after = Chain::new(self.column(), &self.now).motion(&Rates::of(&self.now));
-        let lost = energy - after.energy(self.column());
-        let impulses = answer.contacts.iter().map(Impulse::from).collect();
-        let share = if energy > 0.0 { lost / energy } else { 0.0 };
-        self.change(kind, closing.to_vec(), &before, Some((impulses, share)));
+        self.change(kind, closing.to_vec(), &before, Some(answer.contacts.iter().map(Impulse::from).collect()));
         Ok(())
     }
 

@@ -147,13 +147,13 @@ impl<'p> SlidingRecorder<'p> {
 
     /// Records an event.
     fn change(&mut self, t: f64, change: &Change) {
-        let Change { kind, interfaces, before, after, impact } = change;
+        let Change { kind, interfaces, before, after, impulses } = change;
         for (interface, flights) in self.report.flights.iter_mut().enumerate() {
             let has_landed = *kind == EventKind::Landing && interfaces.contains(&interface);
             let was_free = before.joints[interface] == Joint::Free && !has_landed;
             *flights += usize::from(after.joints[interface] == Joint::Free && !was_free);
         }
-        if let Some((impulses, _)) = impact {
+        if let Some(impulses) = impulses {
             self.impacts += 1;
             self.impulses(impulses);
         }
@@ -179,8 +179,10 @@ impl<'p> SlidingRecorder<'p> {
             states_after: None,
             slide: PerBlock::new(),
             blocks: Vec::new(),
-            energy_lost: impact.as_ref().map(|(_, share)| *share),
-            impulses: impact.as_ref().map_or_else(PerBlock::new, |(impulses, _)| PerBlock::from_slice(impulses)),
+            energy_lost: impulses
+                .as_ref()
+                .map(|_| share_lost([before, after].map(|now| kinetic_energy(self.column(), now)))),
+            impulses: impulses.as_ref().map_or_else(PerBlock::new, |impulses| PerBlock::from_slice(impulses)),
         };
         self.write_configurations(&mut event, [before, after]);
         self.events.push(event);
@@ -518,6 +520,16 @@ fn at_corner(impulse: Impulse, place: f64, turn: f64) -> Impulse {
 fn energy(column: &Column, configuration: &Configuration) -> f64 {
     let chain = Chain::new(column, configuration);
     energy_of(&chain, &chain.motion(&Rates::of(configuration)))
+}
+
+/// Kinetic energy relative to the moving ground `[J]`.
+fn kinetic_energy(column: &Column, configuration: &Configuration) -> f64 {
+    Chain::new(column, configuration).motion(&Rates::of(configuration)).energy(column)
+}
+
+/// Share of an energy that is lost, from the energies before and after.
+fn share_lost([before, after]: [f64; 2]) -> f64 {
+    if before > 0.0 { (before - after) / before } else { 0.0 }
 }
 
 /// Kinetic and potential energy relative to the moving ground, from geometry and motion `[J]`.

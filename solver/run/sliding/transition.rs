@@ -39,8 +39,8 @@ pub struct Change {
     pub interfaces: Vec<usize>,
     pub before: Configuration,
     pub after: Configuration,
-    /// Impulses of an impact, and the share of the kinetic energy that it took; `None` for other events.
-    pub impact: Option<(Vec<Impulse>, f64)>,
+    /// Impulses of an impact; `None` for other events.
+    pub impulses: Option<Vec<Impulse>>,
 }
 
 /// The transition at time zero.
@@ -177,9 +177,9 @@ impl<'p> PendingTransition<'p> {
         kind: EventKind,
         interfaces: Vec<usize>,
         before: &Configuration,
-        impact: Option<(Vec<Impulse>, f64)>,
+        impulses: Option<Vec<Impulse>>,
     ) {
-        self.changes.push(Change { kind, interfaces, before: before.clone(), after: self.now.clone(), impact });
+        self.changes.push(Change { kind, interfaces, before: before.clone(), after: self.now.clone(), impulses });
     }
 
     /// Decides the accelerations at `x⁺` and returns the transition. `hint` is the state of an interface named by the guard that ended the stretch.

@@ -111,8 +111,10 @@ impl<O: Output> Step<'_, '_, O> {
         limit: f64,
     ) -> Option<f64> {
         let ([beside, above], noise) = (gap(self, 0.0), self.noise(guard));
-        if beside.abs() <= noise && above < -CLEAR_MULTIPLE * noise {
-            // Flush with the end of the face and inside: the larger of both stays at zero.
+        let is_inside =
+            above < -CLEAR_MULTIPLE * noise || above <= noise && self.rate_at_start(guard) < -self.staying(guard);
+        if beside.abs() <= noise && is_inside {
+            // Flush with the end of the face, and inside or about to be: the larger of both stays at zero.
             return Some(0.0);
         }
         let depth = beside.max(above);
@@ -126,7 +128,7 @@ impl<O: Output> Step<'_, '_, O> {
         }
         if above >= -noise {
             let s = fall(self)?;
-            if s > 0.0 && gap(self, s)[0] <= 0.0 {
+            if s > 0.0 && gap(self, s)[0] <= CLEAR_MULTIPLE * START_ROUNDING * self.unit(guard) {
                 return Some(s);
             }
         }
@@ -266,7 +268,7 @@ impl<O: Output> Step<'_, '_, O> {
 
     /// Rate of a gap at the start, with the step as the unit of time; zero for a guard that is no gap, and where the gap alone decides nothing.
     fn rate_at_start(&mut self, guard: Guard) -> f64 {
-        let (h, noise) = (self.h, self.noise(guard));
+        let (h, noise, staying) = (self.h, self.noise(guard), self.staying(guard));
         let snapshot = self.at(0.0, false);
         let now = &snapshot.configuration;
         match guard {
@@ -274,9 +276,14 @@ impl<O: Output> Step<'_, '_, O> {
                 let side = if let Joint::Corner(side, ..) = now.joints[interface] { f64::from(side) } else { 0.0 };
                 h * side * now.relative_rate(interface)
             }
-            // Flush with the end of the face, the corner may pass beside it.
-            Guard::Land(corner) if gaps::corner_position(snapshot.chain(), corner)[0] >= -noise => 0.0,
-            Guard::Land(corner) => h * gaps::slide_and_gap_rates(snapshot.chain(), &Rates::of(now), corner)[1],
+            Guard::Land(corner) => {
+                let (chain, rates) = (snapshot.chain(), Rates::of(now));
+                let [beside, _] = gaps::corner_position(chain, corner);
+                // Flush with the end of the face, the corner passes beside it if it moves outward.
+                let passes =
+                    beside > noise || beside >= -noise && h * gaps::outward_rate(chain, &rates, corner) > staying;
+                if passes { 0.0 } else { h * gaps::slide_and_gap_rates(chain, &rates, corner)[1] }
+            }
             _ => 0.0,
         }
     }
