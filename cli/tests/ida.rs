@@ -341,6 +341,21 @@ fn what_no_curve_fits_is_told() {
     }
 }
 
+/// A study whose highest level is out of range is told so before it is run.
+#[test]
+fn check_names_levels_that_are_refused() {
+    let folder = folder();
+    let study = |highest: &str| format!("{BLOCK}levels = [0.1, {highest}]\n[records.synthetic]\nseeds = [1, 2]\n");
+    for (highest, is_refused) in [("0.5", false), ("1e9", true)] {
+        folder.write("study.toml", study(highest));
+        let (told, warnings) = folder.says("check study.toml");
+        assert!(told.contains("a valid study of 4 run(s)"), "{told}");
+        let is_told = warnings
+            .contains("at the highest level, 2 of 2 run(s) are refused, and would be rows with errors; seed 1:");
+        assert!(is_told == is_refused, "{highest}: {warnings}");
+    }
+}
+
 /// Where every column is lost there is no angle to draw, and two records have no fractiles.
 #[test]
 fn a_figure_shows_no_angle_and_no_fractile_that_is_not_there() {

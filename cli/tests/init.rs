@@ -21,6 +21,7 @@ fn a_scene_is_not_written_over_unless_asked() {
     let folder = Folder::with("scene.toml", "mine");
     folder.refused("init", &["--force"]);
     assert_eq!(folder.read("scene.toml"), "mine");
+    folder.refused("init -", &["not to standard output"]);
     folder.succeeds("init --force");
     folder.succeeds("check scene.toml");
 }

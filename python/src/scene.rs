@@ -9,7 +9,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use rocking::run_folder::SceneText;
-use rocking::trust::{Follow, Trust, follow_run_observed};
+use rocking::trust::{Trust, TrustOptions, follow_run_observed};
 use rocking::{Motion, Wanted, simulate_observed};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -46,7 +46,7 @@ struct Pickled<S, O> {
 /// Runs the companions of a run and returns what they say.
 fn follow(py: Python<'_>, scene: &rocking::Scene, response: &rocking::Response) -> PyResult<Trust> {
     let followed =
-        on_all_threads(py, |progress| follow_run_observed(scene, response, Follow::default(), |_| progress()))?;
+        on_all_threads(py, |progress| follow_run_observed(scene, response, TrustOptions::default(), |_| progress()))?;
     followed.map_err(|failed| error::solve(py, &failed))
 }
 

@@ -16,6 +16,7 @@
 //! ```
 
 mod digest;
+mod draft;
 mod read;
 mod write;
 

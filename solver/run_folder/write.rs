@@ -1,6 +1,7 @@
 //! Writes the folder of a run: files under temporary names first, renamed once all are complete.
 
 use super::digest::{Digest, Digesting};
+use super::draft::{self, Draft};
 use super::read::text;
 use super::{COMPANIONS, FILES, FolderError, STATE_COLUMNS, SceneText};
 use crate::column::{Column, Stack};
@@ -14,9 +15,8 @@ use rocking_ground::{Description, Motion};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{BufWriter, Error, ErrorKind, Write};
+use std::io::{BufWriter, Error, Write};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A finished run, to be written.
 #[derive(Clone, Debug)]
@@ -153,6 +153,7 @@ impl Folder {
     /// [`FolderError::Write`] or [`FolderError::Taken`]
     pub fn create(path: &Path) -> Result<Folder, FolderError> {
         std::fs::create_dir_all(path).map_err(|source| FolderError::Write { path: path.into(), source })?;
+        draft::remove_abandoned(path);
         let folder = Folder(path.into());
         folder.draft(|_| Ok(()))?;
         match FILES.iter().map(|name| path.join(name)).find(|file| file.is_dir()) {
@@ -212,36 +213,6 @@ impl Folder {
             Ok(draft)
         };
         filled().map_err(|source| FolderError::Write { path: self.0.clone(), source })
-    }
-}
-
-/// A file that is removed unless it was renamed.
-struct Draft {
-    path: PathBuf,
-    /// Of what has been written.
-    digest: Digest,
-}
-
-impl Draft {
-    fn create(folder: &Path) -> std::io::Result<(Draft, File)> {
-        static COUNT: AtomicU64 = AtomicU64::new(0);
-        loop {
-            let name = format!(".rocking-{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
-            let path = folder.join(name);
-            match File::create_new(&path) {
-                Ok(file) => return Ok((Draft { path, digest: Digest::default() }, file)),
-                // A process that was killed may have had the same number.
-                Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
-                Err(error) => return Err(error),
-            }
-        }
-    }
-}
-
-impl Drop for Draft {
-    fn drop(&mut self) {
-        // An error leaves a file behind, which harms nothing; after a renaming there is none to remove.
-        let _ = std::fs::remove_file(&self.path);
     }
 }
 

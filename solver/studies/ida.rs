@@ -12,7 +12,7 @@ use crate::response::Fate;
 use crate::response::{EventKind, Response};
 use crate::run::{Simulator, SolveError};
 use crate::scene::{Scene, SceneErrors, Wanted};
-use crate::trust::{Follow, follow_run};
+use crate::trust::{TrustOptions, follow_run};
 use rayon::prelude::*;
 use rocking_codegen::pattern::Pattern;
 use rocking_ground::{Excitation, Motion, Record, RecordError};
@@ -345,7 +345,7 @@ impl Ida {
             let response = simulator.run(&scene)?;
             let mut found = outcome(&scene, &response);
             if self.is_followed {
-                let trust = follow_run(&scene, &response, Follow::VERDICT)?;
+                let trust = follow_run(&scene, &response, TrustOptions::VERDICT)?;
                 // A run that ended because no motion follows from the laws of contact stays undetermined, whatever its companions do.
                 if !trust.determined && found.fate != Fate::Undetermined {
                     found = open(&scene, response, trust.horizon);

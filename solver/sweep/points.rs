@@ -12,7 +12,7 @@ use crate::response::{Fate, ModeName, Response};
 use crate::run::{Simulator, SolveError};
 use crate::scene::{Scene, Wanted};
 use crate::scene_file::{SceneFileError, Setting, Template, VariedExcitation};
-use crate::trust::{Follow, follow_run};
+use crate::trust::{TrustOptions, follow_run};
 use crate::validity::{ContactNeeds, Validity};
 use rayon::prelude::*;
 use std::ops::{ControlFlow, Range};
@@ -285,7 +285,7 @@ impl<'s> Worker<'s> {
         let response = self.simulator.run_valid(scene, &mut |_| ControlFlow::Continue(()))?;
         let mut outcome = self.sweep.outcome(scene, &response);
         if self.sweep.ask == Ask::Trust {
-            outcome.determined = Some(follow_run(scene, &response, Follow::VERDICT)?.determined);
+            outcome.determined = Some(follow_run(scene, &response, TrustOptions::VERDICT)?.determined);
         }
         Ok(outcome)
     }

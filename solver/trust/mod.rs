@@ -91,25 +91,25 @@ pub struct Trust {
     pub band: Band,
 }
 
-/// What is computed besides the trust in the verdict. Start from `Follow::default()` and set fields.
+/// What is computed besides the trust in the verdict. Start from `TrustOptions::default()` and set fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct Follow {
+pub struct TrustOptions {
     /// Whether to search for the change of the shaking that changes the verdict.
     pub fold: bool,
     /// Whether to keep the range of the angles over time.
     pub band: bool,
 }
 
-impl Follow {
+impl TrustOptions {
     /// Neither: only the trust in the verdict, as sweeps and studies need it for each of many runs.
-    pub const VERDICT: Follow = Follow { fold: false, band: false };
+    pub const VERDICT: TrustOptions = TrustOptions { fold: false, band: false };
 }
 
-impl Default for Follow {
+impl Default for TrustOptions {
     /// Both the fold and the band.
-    fn default() -> Follow {
-        Follow { fold: true, band: true }
+    fn default() -> TrustOptions {
+        TrustOptions { fold: true, band: true }
     }
 }
 
@@ -131,7 +131,7 @@ impl Default for Follow {
 /// [`SolveError`] of the run itself. A companion that fails agrees with nothing.
 pub fn follow(scene: &Scene) -> Result<(Response, Trust), SolveError> {
     let response = crate::run::simulate(scene)?;
-    let trust = follow_run(scene, &response, Follow::default())?;
+    let trust = follow_run(scene, &response, TrustOptions::default())?;
     Ok((response, trust))
 }
 
@@ -140,7 +140,7 @@ pub fn follow(scene: &Scene) -> Result<(Response, Trust), SolveError> {
 ///
 /// # Errors
 /// [`SolveError`] where the scene does not run.
-pub fn follow_run(scene: &Scene, response: &Response, asked: Follow) -> Result<Trust, SolveError> {
+pub fn follow_run(scene: &Scene, response: &Response, asked: TrustOptions) -> Result<Trust, SolveError> {
     follow_run_observed(scene, response, asked, |_| ControlFlow::Continue(()))
 }
 
@@ -152,7 +152,7 @@ pub fn follow_run(scene: &Scene, response: &Response, asked: Follow) -> Result<T
 pub fn follow_run_observed(
     scene: &Scene,
     response: &Response,
-    asked: Follow,
+    asked: TrustOptions,
     progress: impl Fn(f64) -> ControlFlow<()> + Sync,
 ) -> Result<Trust, SolveError> {
     let run = |scene: &Scene| Simulator::new().run_observed(scene, &progress);

@@ -5,7 +5,7 @@ mod stress;
 
 use crate::reference::{Settings, replay, tightest};
 use rocking::ground::{Synthetic, TextOptions};
-use rocking::trust::{self, Follow, Trust, Verdict};
+use rocking::trust::{self, Trust, TrustOptions, Verdict};
 use rocking::{Column, Method, Motion, Record, Restitution, Scene, simulate};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -86,7 +86,7 @@ struct Tally {
 
 fn followed(scene: &Scene) -> Option<Trust> {
     let run = simulate(scene).ok()?;
-    trust::follow_run(scene, &run, Follow::VERDICT).ok()
+    trust::follow_run(scene, &run, TrustOptions::VERDICT).ok()
 }
 
 fn count(seed: u64, records: &[Record], tally: &Mutex<Tally>) {

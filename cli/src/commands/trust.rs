@@ -1,7 +1,7 @@
 //! Companions of a run: whether they are run, and what is printed of their result.
 
 use crate::arguments;
-use rocking::trust::{Follow, Trust, Verdict, follow_run};
+use rocking::trust::{Trust, TrustOptions, Verdict, follow_run};
 use rocking::{Response, Scene, SolveError};
 
 /// Longest computing time of a run that is followed without `--trust` `[s]`. Companions of a longer run take half a minute and more.
@@ -29,7 +29,7 @@ impl Followed {
         match seconds > LONGEST_FOLLOWED && !request.trust {
             _ if request.no_trust => Ok(Followed::No),
             true => Ok(Followed::TooLong(seconds)),
-            false => follow_run(scene, response, Follow::default()).map(|trust| Followed::By(Box::new(trust))),
+            false => follow_run(scene, response, TrustOptions::default()).map(|trust| Followed::By(Box::new(trust))),
         }
     }
 

@@ -5,7 +5,7 @@ use crate::error::Failure;
 use crate::number::significant;
 use crate::terminal::{json, print, warn_of_some};
 use crate::text::{printable, shown};
-use rocking::studies::{IdaFile, StudyRecord};
+use rocking::studies::{Ida, IdaFile, StudyRecord};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -18,7 +18,7 @@ struct Findings {
     records: Vec<StudiedRecord>,
     runs: usize,
     states: Vec<String>,
-    /// Warnings about the records, each once.
+    /// Warnings about the records, each once, and about runs that would be rows with errors.
     warnings: Vec<String>,
 }
 
@@ -45,7 +45,7 @@ pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
         records: ida.records().iter().enumerate().map(record).collect(),
         runs: ida.len(),
         states: states.iter().map(ToString::to_string).collect(),
-        warnings: ida::warnings(&ida),
+        warnings: ida::warnings(&ida).into_iter().chain(refused(&ida)).collect(),
     };
     warn_of_some(&findings.warnings);
     if as_json {
@@ -64,4 +64,22 @@ pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
     let _ = writeln!(text, "  limit states: {}", findings.states.join(", "));
     let _ = writeln!(text, "run it with `rocking ida {}`", shown(path));
     print(&text)
+}
+
+/// What is said of runs that are refused; the highest level of each record is read.
+fn refused(ida: &Ida) -> Option<String> {
+    let levels = ida.levels();
+    let highest = (0..levels.len()).max_by(|one, other| levels[*one].total_cmp(&levels[*other]))?;
+    let reason = |record: usize| match ida.scene_of(record * levels.len() + highest) {
+        Err(error) => Some((record, error.to_string())),
+        Ok(scene) => scene.check().err().map(|error| (record, error.to_string())),
+    };
+    let refused: Vec<(usize, String)> = (0..ida.records().len()).filter_map(reason).collect();
+    let (first, problem) = refused.first()?;
+    Some(format!(
+        "at the highest level, {} of {} run(s) are refused, and would be rows with errors; {}: {problem}",
+        refused.len(),
+        ida.records().len(),
+        printable(&ida.records()[*first].name)
+    ))
 }
