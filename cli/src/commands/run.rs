@@ -104,12 +104,11 @@ fn named(scene: &Scene, block: usize) -> String {
     }
 }
 
-/// A few lines on what happened.
-fn account(scene: &Scene, response: &Response, followed: &Followed) -> String {
-    // The words of `outcome` in tables and in summary.json.
+/// How a run ends, in the words of the column `outcome` of tables and summaries.
+fn end_of_run(scene: &Scene, response: &Response) -> String {
     let fate = Fate::of(response).name().replace('-', " ");
     let t = response.t_final;
-    let outcome = match response.status {
+    match response.status {
         StopReason::Overturned => {
             let block = response.overturned_block.map_or(String::new(), |block| format!(" ({})", named(scene, block)));
             format!("{fate} at t = {t:.4} s{block}")
@@ -134,7 +133,11 @@ fn account(scene: &Scene, response: &Response, followed: &Followed) -> String {
             let moves = if Fate::of(response) == Fate::Slides { "sliding" } else { "rocking" };
             format!("{fate} and stands at t = {t:.4} s, still {moves}")
         }
-    };
+    }
+}
+
+/// A few lines on what happened.
+fn account(scene: &Scene, response: &Response, followed: &Followed) -> String {
     let list = |numbers: &[f64]| numbers.iter().map(|number| format!("{number:.5}")).collect::<Vec<_>>().join(", ");
     // Names of blocks are printed once, in the first list.
     let with_names = |numbers: &[f64]| {
@@ -155,7 +158,7 @@ fn account(scene: &Scene, response: &Response, followed: &Followed) -> String {
     if !scene.title.is_empty() {
         let _ = writeln!(text, "{}", printable(&scene.title));
     }
-    let _ = writeln!(text, "{}{outcome}; {} impact(s)", followed.lead(), response.impacts);
+    let _ = writeln!(text, "{}{}; {} impact(s)", followed.lead(), end_of_run(scene, response), response.impacts);
     text.push_str(&followed.line());
     let (peaks, angles) = (with_names(&response.peaks(&scene.column)), list(&response.peak_theta));
     let _ = writeln!(text, "largest |θ|/α, base first: {peaks} (|θ|: {angles} rad)");

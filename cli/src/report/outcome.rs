@@ -12,12 +12,30 @@ use rocking::run_folder::Results;
 use rocking::{Event, EventKind, Fate, SlidingReport, StopReason};
 use std::fmt::Write as _;
 
-/// HTML of the outcome.
+/// HTML of the outcome: the sentence with a sign, what is known of its trust, and where the blocks stayed.
 pub fn sentence(results: &Results) -> String {
+    let (class, words) = end_of_run(results);
+    let (class, words) = trust::qualified(results, class, words);
+    // Outcomes differ by the shape of their sign, not by colour alone.
+    let sign = match class {
+        "overturned" => "<path d=\"M6 6l12 12M18 6L6 18\"/>",
+        "stands" => "<path d=\"M5 13l5 5L19 7\"/>",
+        "undetermined" => "<path d=\"M8 9a4 4 0 1 1 4 4v2M12 19v.5\"/>",
+        _ => "<path d=\"M4 12c3-6 5-6 8 0s5 6 8 0\"/>",
+    };
+    format!(
+        "<p class=\"outcome {class}\"><svg viewBox=\"0 0 24 24\" aria-hidden=\"true\">{sign}</svg><span>{words}</span></p>\n{}{}",
+        trust::paragraph(results),
+        places(results)
+    )
+}
+
+/// How the run ends: the class of the sentence, and the sentence in HTML.
+fn end_of_run(results: &Results) -> (&'static str, String) {
     let response = &results.response;
     let t = significant(response.t_final, 4);
     let end = significant(results.options.t_end, 4);
-    let (class, words) = match response.status {
+    match response.status {
         StopReason::Overturned => {
             let first = response.overturned_block.map_or(String::new(), |block| match results.column.len() {
                 1 => String::new(),
@@ -75,20 +93,7 @@ pub fn sentence(results: &Results) -> String {
             );
             ("rocking", words)
         }
-    };
-    let (class, words) = trust::qualified(results, class, words);
-    // Outcomes differ by the shape of their sign, not by colour alone.
-    let sign = match class {
-        "overturned" => "<path d=\"M6 6l12 12M18 6L6 18\"/>",
-        "stands" => "<path d=\"M5 13l5 5L19 7\"/>",
-        "undetermined" => "<path d=\"M8 9a4 4 0 1 1 4 4v2M12 19v.5\"/>",
-        _ => "<path d=\"M4 12c3-6 5-6 8 0s5 6 8 0\"/>",
-    };
-    format!(
-        "<p class=\"outcome {class}\"><svg viewBox=\"0 0 24 24\" aria-hidden=\"true\">{sign}</svg><span>{words}</span></p>\n{}{}",
-        trust::paragraph(results),
-        places(results)
-    )
+    }
 }
 
 /// Slides below this are not worth a number `[m]`.
