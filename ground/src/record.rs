@@ -243,17 +243,21 @@ impl Record {
     /// The record with every sample multiplied.
     ///
     /// # Errors
-    /// [`RecordError::Acceleration`] for a product out of range.
+    /// [`RecordError::OutOfRange`] for a factor that is not finite, [`RecordError::Acceleration`] for a product out of range.
     pub fn scaled(self, factor: f64) -> Result<Record, RecordError> {
+        if !factor.is_finite() {
+            return Err(RecordError::OutOfRange { name: "factor", value: factor, wanted: "a finite number" });
+        }
         let scaled = Record::new(self.accel.iter().map(|a| a * factor).collect(), self.dt, self.start)?;
         let Record { source, first_sample, warnings, .. } = self;
         Ok(Record { scale: self.scale * factor, source, first_sample, warnings, ..scaled })
     }
 
-    /// The record scaled to this peak `[m/s²]`.
+    /// The record scaled to this peak `[m/s²]`; one below zero turns the motion round.
     ///
     /// # Errors
-    /// [`RecordError::Silent`] for a record of zeros, [`RecordError::Acceleration`] for a product out of range.
+    /// [`RecordError::Silent`] for a record of zeros, [`RecordError::OutOfRange`] for a peak that is not finite, [`RecordError::Acceleration`] for a
+    /// product out of range.
     pub fn scaled_to_peak(self, peak: f64) -> Result<Record, RecordError> {
         let own = self.peak();
         if own == 0.0 { Err(RecordError::Silent) } else { self.scaled(peak / own) }

@@ -103,6 +103,17 @@ const LARGEST_COEFFICIENT: f64 = 1e100;
 /// The search for a landing ends at far smaller depths.
 pub(crate) const DEPTH_SHARE: f64 = 1e-8;
 
+/// Lifts placed blocks that reach into the block below, as [`deepest`] lets them, until they touch: a corner inside a block strikes nothing.
+pub(crate) fn lift_out(column: &Column, placed: &mut Configuration) {
+    for interface in 0..column.len() {
+        let pose = Pose::of_free(placed, interface);
+        let depth = gaps::overlap_of_blocks(column, &pose, interface, DEPTH_SHARE * column.size());
+        let [x, y] = pose.lower.rotate([0.0, depth]);
+        let apart = &mut placed.apart[interface];
+        *apart = [apart[0] + x, apart[1] + y];
+    }
+}
+
 /// Block (from zero) that reaches deepest into the block below or the ground, and its depth `[m]`. `None` if no depth exceeds [`DEPTH_SHARE`].
 /// `x` and `y` are the centroids `[m]`; `theta` are the angles `[rad]`, empty for zero.
 pub(crate) fn deepest(column: &Column, [x, y]: [&[f64]; 2], theta: &[f64]) -> Option<(usize, f64)> {

@@ -5,6 +5,8 @@ mod common;
 mod flights;
 mod jams_and_edges;
 mod landings;
+#[path = "../common/random.rs"]
+mod random;
 mod slides;
 mod whole_runs;
 

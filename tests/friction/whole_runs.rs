@@ -2,11 +2,12 @@
 
 use super::{GRAVITY, run, scene, slide};
 use crate::common;
+use crate::random::Random;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use rocking::column::Shape;
 use rocking::ground::{Motion, Synthetic};
-use rocking::response::{BlockAtEvent, Event};
+use rocking::response::{BlockAtEvent, BlockState, Event};
 use rocking::{Block, Column, EventKind, Friction, Method, Response, Restitution, Scene, StopReason, Wanted, simulate};
 
 /// A drum beyond the edge of the one below has no angle of balance: its share is infinite from the start.
@@ -345,6 +346,59 @@ fn no_free_corner_that_touches_sinks_after_an_event() {
     }
     assert!(touching > 3_000, "{touching}");
     assert!(sinking.is_empty(), "{} of {touching}: {:?}", sinking.len(), &sinking[..sinking.len().min(5)]);
+}
+
+/// Three blocks placed on each other without a gap, most of them of one width, so that corners are flush with the ends of the faces, and thrown.
+fn placed(random: &mut Random) -> Scene {
+    // Some reach into the block below by what decimals round.
+    let (half_height, turn) = (random.pick(&[0.3, 0.5]), random.pick(&[0.0, 0.0, 0.05, -0.1]));
+    let half_widths = [0.3, 0.3, random.pick(&[0.3, 0.3, 0.25])];
+    let blocks = half_widths.map(|half_width| Block::rectangle(half_width, half_height, 1.0));
+    let mut scene = scene(blocks.to_vec(), vec![random.pick(&[0.3, 0.6]); 3]);
+    let (sin, cos) = f64::sin_cos(turn);
+    let initial = &mut scene.initial;
+    for block in 0..3 {
+        let along = half_height * f64::from(2 * block + 1);
+        initial.x.push(0.1 + along * sin);
+        initial.y.push(0.3 * sin.abs() + along * cos + random.pick(&[0.0, 1e-12]) * f64::from(block));
+        initial.vx.push(random.pick(&[0.0, 0.0, 0.0, 0.4]));
+        initial.vy.push(-random.pick(&[0.0, 1e-6, 0.5, 1.0]) * f64::from(block));
+        initial.omega.push(random.pick(&[0.0, 0.0, 0.0, 0.2]));
+    }
+    initial.theta = vec![turn; 3];
+    scene.options.method = random.pick(&[Method::Auto, Method::Dop853]);
+    (scene.options.t_end, scene.output_dt) = (1.0, Some(0.02));
+    scene
+}
+
+#[test]
+fn placed_blocks_do_not_sink_into_each_other() {
+    let mut random = Random::new(1);
+    let mut examined = 0;
+    for number in 0..300 {
+        let scene = placed(&mut random);
+        let response = run(&scene);
+        assert_ne!(response.status, StopReason::Undetermined, "{number}");
+        for row in response.samples.iter().filter(|row| !row.blocks.is_empty()) {
+            let body = |index: usize| {
+                let BlockState { place, velocity, .. } = row.blocks[index];
+                Body { place, velocity, theta: row.theta[index], omega: row.omega[index] }
+            };
+            for interface in 1..3 {
+                let [lower, upper] = [interface - 1, interface].map(|index| scene.column.blocks()[index]);
+                for share in [-0.9, -0.5, 0.0, 0.5, 0.9] {
+                    let foot = body(interface).point([share * upper.bottom_half_width, -upper.half_height]);
+                    let top = [0.0, lower.half_height];
+                    let Some([gap, _]) = gap_over(foot, body(interface - 1), top, lower.top_half_width, 1.0) else {
+                        continue;
+                    };
+                    examined += 1;
+                    assert!(gap > -1e-7, "{number}: {gap} m at interface {} at {} s", interface + 1, row.t);
+                }
+            }
+        }
+    }
+    assert!(examined > 10_000, "{examined}");
 }
 
 /// Landings of hops little higher than the lowest that is followed were found late, of explicit methods most: the fall gave its energy to the next hop, and

@@ -2,6 +2,7 @@
 
 use crate::friction::guards::Guard;
 use crate::friction::joint::Configuration;
+use crate::friction::lift_out;
 use crate::response::StopReason;
 use crate::run::problem::Problem;
 use crate::run::stretch::{Ended, Over};
@@ -100,6 +101,7 @@ impl SlidingState {
         let Initial { x, y, vx, vy, .. } = &problem.scene.initial;
         if !x.is_empty() {
             configuration.place(column, [x, y], [vx, vy]);
+            lift_out(column, &mut configuration);
         }
         SlidingState { t: 0.0, segment: 0, configuration }
     }
