@@ -94,6 +94,9 @@ pub enum Failure {
          modes without --svg"
     )]
     CrowdedFigure { blocks: usize, modes: u64, largest: usize },
+    /// The text of `--mode` is neither a mode nor states.
+    #[error("--mode {0}: write a mode K.J like 1.2, or the states of all interfaces in parentheses like \"(+>,0)\"")]
+    NotAMode(String),
     /// There is no such mode in a column of so many blocks.
     #[error("--mode {0}: a column of {1} block(s) has no such mode; `rocking modes --blocks {1}` lists them")]
     Mode(String, usize),

@@ -38,9 +38,9 @@ fn the_table_has_every_independent_mode_once_in_the_order_of_labels() {
 #[test]
 fn columns_of_the_table_tell_pattern_free_angles_program_and_operations() {
     let expected = [
-        (["2.2", "(0,+,0)", "1", "Dof1"], "| /=/."),
-        (["1.6", "(+,0,-)", "2", "Dof2"], "/=/. .|"),
-        (["1.9", "(+,-,-)", "3", "Dof3"], "/. .| .\\"),
+        (["2.2", "(0,+,0)", "1", "HorizontalDof1"], "| /=/."),
+        (["1.6", "(+,0,-)", "2", "HorizontalDof2"], "/=/. .|"),
+        (["1.9", "(+,-,-)", "3", "HorizontalDof3"], "/. .| .\\"),
     ];
     for (columns, drawing) in expected {
         let row = table(3).into_iter().find(|row| row.starts_with(columns[0])).expect("the mode is listed");

@@ -21,6 +21,12 @@ impl Corner {
         faces.iter().map(move |&face| Corner { interface, side, face })
     }
 
+    /// The corner of the other block and the other side: it is in the same place where a block stands with one corner on the end of the other's face.
+    pub fn opposite(self) -> Corner {
+        let face = if self.face == Face::Upper { Face::Lower } else { Face::Upper };
+        Corner { side: -self.side, face, ..self }
+    }
+
     /// Every corner at an interface that may land on the face of the other block, on both sides.
     pub fn all(interface: usize) -> impl Iterator<Item = Corner> {
         [1, -1].into_iter().flat_map(move |side| Corner::of_side(interface, side))

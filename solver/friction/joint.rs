@@ -211,7 +211,13 @@ impl Configuration {
             [true, true] => self.apart[i] == other.apart[i] && self.apart_rate[i] == other.apart_rate[i],
             [one, two] => one == two,
         };
-        is_turned_alike && slides_alike && (0..self.joints.len()).all(flies_alike)
+        let turns_about_the_same = |i: usize| match [self.joints[i], other.joints[i]] {
+            [Joint::Corner(side, face, _), Joint::Corner(other_side, other_face, _)] => {
+                (side, face) == (other_side, other_face) || self.relative_rate(i) == 0.0
+            }
+            _ => true,
+        };
+        is_turned_alike && slides_alike && (0..self.joints.len()).all(|i| flies_alike(i) && turns_about_the_same(i))
     }
 
     /// Relative rate of an interface (from zero) `[rad/s]`.

@@ -24,17 +24,17 @@ const LONGEST_WAY: f64 = 0.6;
 const SHARE_OF_ROUNDING: f64 = 1e-9;
 
 impl Harmonics {
-    /// Adds `share` times a wave to the margins.
+    /// Adds a wave, a function of the angle, times a factor for each corner to the margins.
     #[inline(always)]
-    pub fn add(&mut self, share: f64x2, wave: &Wave) {
-        let [mean, first @ .., cos, sin] = wave.map(|part| share * f64x2::splat(part));
+    pub fn add(&mut self, factors: f64x2, wave: &Wave) {
+        let [mean, first @ .., cos, sin] = wave.map(|part| factors * f64x2::splat(part));
         self.mean += mean;
         for (part, own) in self.first.iter_mut().chain(&mut self.second).zip(first.into_iter().chain([cos, sin])) {
             *part += own;
         }
     }
 
-    /// These margins with a start that lies further on, by an angle with this sine and cosine.
+    /// The same margins with the angle counted from a later start, by an angle with this sine and cosine.
     pub fn from(&self, (sin, cos): (f64, f64)) -> Harmonics {
         let turned = |[of_cos, of_sin]: [f64x2; 2], sin: f64, cos: f64| {
             let (sin, cos) = (f64x2::splat(sin), f64x2::splat(cos));

@@ -100,7 +100,7 @@ pub(crate) struct Waves {
     pub sin: Wave,
     /// `θ¨ [rad/s²]`
     pub acceleration: Wave,
-    /// Square of the rate, `θ̇²` `[rad²/s²]`, over the angle; negative at angles outside the swing.
+    /// `θ̇² [rad²/s²]` as a function of the angle; negative at angles outside the swing.
     pub square_of_rate: Wave,
     /// `(cos θ)¨ [1/s²]`
     pub cos_ddot: Wave,

@@ -4,7 +4,7 @@ use super::{GRAVITY, run, scene};
 use approx::assert_relative_eq;
 use rocking::ground::Motion;
 use rocking::response::Event;
-use rocking::{Block, DynamicsSource, EventKind, Method, Restitution, StopReason};
+use rocking::{Block, DynamicsSource, EventKind, Method, Restitution, Scene, StopReason};
 use std::f64::consts::{PI, TAU};
 
 /// Housner's landing sticks if `μ ≥ 3t/(4 + t²)`.
@@ -302,4 +302,75 @@ fn the_energy_of_an_impact_includes_the_end_of_low_hops() {
         impacts += 1;
     }
     assert!(impacts > 20, "{impacts}");
+}
+
+/// Two blocks of these half-widths and half-heights: the lower one stands at the origin, the upper one is placed at `[x, y, θ]` and thrown with `[vx, vy]`.
+fn thrown(sizes: [[f64; 2]; 2], [x, y, theta]: [f64; 3], [vx, vy]: [f64; 2]) -> Scene {
+    let blocks = sizes.map(|[half_width, half_height]| Block::rectangle(half_width, half_height, 1.0));
+    let mut scene = scene(blocks.to_vec(), vec![0.5; 2]);
+    scene.initial.theta = vec![0.0, theta];
+    (scene.initial.x, scene.initial.y) = (vec![0.0, x], vec![sizes[0][1], y]);
+    (scene.initial.vx, scene.initial.vy) = (vec![0.0, vx], vec![0.0, vy]);
+    scene.options.t_end = 1.5;
+    scene
+}
+
+/// Half-widths and half-heights of the lower and the upper block.
+const OPPOSITE: [[f64; 2]; 2] = [[0.5, 0.5], [0.5, 0.5]];
+
+/// The lower left corner of a tilted block on the upper right corner of the block below is one point, on the end of its face: the block stands there, and tips
+/// off. Taken for two points of faces that lie on each other, it was laid flat, with energy from nowhere.
+#[test]
+fn a_corner_on_the_corner_of_the_other_side_is_one_point() {
+    let (sin, cos) = f64::sin_cos(0.5);
+    let place = [0.5 + 0.5 * (cos + sin), 1.0 + 0.5 * (cos - sin), 0.5];
+    for method in [Method::Auto, Method::Dop853] {
+        let mut scene = thrown(OPPOSITE, place, [0.0, 0.0]);
+        scene.options.method = method;
+        let response = run(&scene);
+        let start = &response.events[0];
+        assert_eq!(start.states_after.as_ref().map(ToString::to_string).as_deref(), Some("(0,+)"), "{method:?}");
+        assert_eq!(start.theta[..], [0.0, 0.5], "{method:?}");
+        assert!((start.blocks[1].place[1] - place[1]).abs() < 1e-15, "{method:?}");
+        assert_eq!(response.status, StopReason::Collapsed, "{method:?}");
+        assert_relative_eq!(response.t_final, 0.12826, max_relative = 1e-4);
+        assert!(response.sliding.expect("with friction").impact_losses.abs() < 1e-12, "{method:?}");
+        // It lands there as well.
+        let lands = |[x, y, theta]: [f64; 3]| run(&thrown(OPPOSITE, [x, y + 0.1, theta], [0.0, 0.0]));
+        let landing = &lands(place).events[1];
+        assert_eq!(landing.states_after.as_ref().map(ToString::to_string).as_deref(), Some("(0<,+)"), "{method:?}");
+        assert!((landing.theta[1] - 0.5).abs() < 1e-12, "{method:?}");
+    }
+}
+
+/// A block on its side with its corner on the corner of the block below, thrown inward and up: it flies, and lands where the parabola ends.
+#[test]
+fn a_corner_that_leaves_a_corner_inward_and_up_flies() {
+    let sizes = [[0.5, 0.25], [0.25, 0.125]];
+    let turn = -f64::atan2(1.0, 0.5);
+    let (sin, cos) = f64::sin_cos(turn);
+    // The lower left corner of the upper block on the upper left corner of the lower one.
+    let place = [-0.5 + 0.25 * cos + 0.125 * sin, 0.5 + 0.125 * cos - 0.25 * sin, turn];
+    for method in [Method::Auto, Method::Dop853] {
+        let mut scene = thrown(sizes, place, [0.5, 0.5]);
+        scene.options.method = method;
+        let response = run(&scene);
+        let landing = response.events.iter().find(|event| event.kind == EventKind::Landing).expect("it lands");
+        // The corner falls back to the height of the face after 2 v / g.
+        assert_relative_eq!(landing.t, 2.0 * 0.5 / GRAVITY, max_relative = 1e-9);
+    }
+}
+
+/// An impact that leaves the rates as they are, and changes the corner alone, moves the centroid otherwise: what it loses belongs to the balance.
+#[test]
+fn an_impact_that_changes_the_corner_alone_is_in_the_balance() {
+    let blocks = vec![Block::rectangle(0.5, 0.125, 1.0), Block::rectangle(0.25, 0.5, 1.0)];
+    let mut scene = scene(blocks, vec![0.7; 2]);
+    scene.column = scene.column.displaced(vec![0.0, 0.5]).expect("the faces overlap");
+    (scene.initial.theta, scene.initial.omega) = (vec![0.0, -0.1], vec![0.0, -0.5]);
+    scene.options.t_end = 3.0;
+    let response = run(&scene);
+    let report = response.sliding.expect("with friction");
+    assert!(report.impact_losses > 0.02, "{report:?}");
+    assert!(report.balance().is_some_and(|open| open < 1e-9), "{report:?}");
 }

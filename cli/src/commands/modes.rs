@@ -44,7 +44,7 @@ pub fn rows(blocks: usize) -> Vec<Row> {
             mode: label.to_string(),
             pattern: pattern.to_string(),
             dof,
-            program: format!("Dof{dof}"),
+            program: format!("HorizontalDof{dof}"),
             flops: operations[dof - 1].flops(),
             divisions: operations[dof - 1].divisions,
             drawing: posture::line(&pattern),
@@ -56,11 +56,11 @@ pub fn rows(blocks: usize) -> Vec<Row> {
 /// One line per mode. The drawing comes last: it alone has blanks, and a line is often split at them.
 pub fn list_modes(blocks: usize) -> String {
     let width = (2 * blocks + 1).max("pattern".len());
-    let mut text = format!("{:<9} {:<width$}  dof  program  flops  divisions  drawing\n", "mode", "pattern");
+    let mut text = format!("{:<9} {:<width$}  dof  {:<15}  flops  divisions  drawing\n", "mode", "pattern", "program");
     for Row { mode, pattern, dof, program, flops, divisions, drawing } in rows(blocks) {
         let _ = writeln!(
             text,
-            "{mode:<9} {pattern:<width$}  {dof:<3}  {program:<7}  {flops:<5}  {divisions:<9}  {drawing}"
+            "{mode:<9} {pattern:<width$}  {dof:<3}  {program:<15}  {flops:<5}  {divisions:<9}  {drawing}"
         );
     }
     let _ = write!(
@@ -105,8 +105,9 @@ pub enum Asked {
 /// The derivation or the operation counts of a mode or of states, as text.
 pub fn derive(blocks: usize, mode: &str, request: Asked) -> Result<String, Failure> {
     if !mode.trim_start().starts_with('(') {
-        let pattern = ModeLabel::parse(mode).and_then(|label| label.pattern(blocks));
-        return Ok(of_pattern(&pattern.ok_or_else(|| Failure::Mode(mode.into(), blocks))?, request));
+        let label = ModeLabel::parse(mode.trim()).ok_or_else(|| Failure::NotAMode(mode.into()))?;
+        let pattern = label.pattern(blocks).ok_or_else(|| Failure::Mode(mode.into(), blocks))?;
+        return Ok(of_pattern(&pattern, request));
     }
     let joints = Joints::parse(mode).map_err(|error| Failure::States(mode.into(), error))?;
     if joints.0.len() != blocks {
@@ -180,10 +181,10 @@ pub fn list_moving(blocks: usize) -> String {
     let sliding: u64 = rows.iter().map(|row| row.states).sum();
     let _ = write!(
         text,
-        "{sliding} of the 10^{blocks} combinations of states of {blocks} block(s) slide or fly, on {} program(s); the others stick, in the {} pattern(s) of `rocking modes`.\n\
+        "{sliding} of the 10^{blocks} combinations of states of {blocks} block(s) slide or fly, on {} program(s); the others stick: the {} mode(s) of `rocking modes`, their mirror images, and rest.\n\
          translations: one for each interface that slides, two for each that flies; built: whether this build has the program, or the hand-written equations serve.\n",
         rows.len(),
-        3u64.pow(blocks as u32),
+        (3u64.pow(blocks as u32) - 1) / 2,
     );
     text
 }

@@ -15,7 +15,7 @@ Angles are absolute and clockwise positive. `axial` is the component along the a
 
 /// Notation of step programs.
 pub const PROGRAM_UNITS: &str = "
-Accelerations do not depend on the unit of mass. Step programs measure mass by J_1, the moment of inertia of the lowest link: `inertia_a` is J_a / J_1, `moment_axial_a` is the axial component of S_a / J_1, and J_1 itself is one. Where an `inverse_gravity` is among the constants, accelerations are measured by gravity, so that gravity is one, too.
+Accelerations do not depend on the unit of mass. Step programs measure mass by J_1, the moment of inertia of the lowest link: `inertia_a` is J_a / J_1, `moment_axial_a` is the axial component of S_a / J_1, and J_1 itself is one. Where an `inverse_gravity` is among the constants, accelerations are measured by gravity, so that gravity is one, too: moments are then times gravity, and levers over gravity.
 ";
 
 /// Notation of programs with translations.
@@ -24,9 +24,9 @@ Links are the runs of blocks with one angle, counted from the lowest that turns;
 
 Translation c moves what lies above its interface along (x, y) = (cos_face_c, -sin_face_c), a direction that turns at the rate face_omega_c. `carried_mass_c` is the mass that it moves. `carried_c_axial_a`, `carried_c_lateral_a` are the first moment of that mass about the pivot of link a, as far as link a turns it, the masses of higher links concentrated in the next pivot.
 
-`link_inertia_a`, `link_moment_axial_a`, `link_moment_lateral_a` are the moment of inertia and first moment, about the pivot of link a, of the link and all masses above, those concentrated in the next pivot; `link_lever_axial_a`, `link_lever_lateral_a` lead from the pivot of link a to the next one. `axial` is the component along the axis of a link, upwards; `lateral` is the component across the axis, to the left. A body vector of link a has the derivative (x, y) = (cos_a * axial + sin_a * lateral, cos_a * lateral - sin_a * axial) by the angle of the link. All of these belong to the slides of the moment. All units are SI.
+`link_inertia_a`, `link_moment_axial_a`, `link_moment_lateral_a` are the moment of inertia and first moment, about the pivot of link a, of the link and all masses above, those concentrated in the next pivot; `link_lever_axial_a`, `link_lever_lateral_a` lead from the pivot of link a to the next one. `axial` is the component along the axis of a link, upwards; `lateral` is the component across the axis, to the left. A body vector of link a has the derivative (x, y) = (cos_a * axial + sin_a * lateral, cos_a * lateral - sin_a * axial) by the angle of the link. All of these belong to the present slides. All units are SI.
 
-The row of a slide is d'Alembert's principle tested along (1, lift_c) in the axes of its face, `lift_c` the coefficient of friction with the sign of the slide: T + lift_c N = 0. No normal force is solved for, and the matrix is not symmetric. In flight, `lift_c` is zero.
+The row of a slide is d'Alembert's principle tested along (1, lift_c) in the axes of its face, `lift_c` the coefficient of friction with the sign of the slide: T + lift_c N = 0. No normal force is solved for, and the matrix is not symmetric. In flight, `lift_c` is zero; for its vertical direction cos_face_c is 0 and sin_face_c is -1.
 
 Which blocks a translation moves, and with which link its face turns, is in the values alone: one program serves all columns with as many angles and translations.
 ";
@@ -38,16 +38,16 @@ pub fn group(name: &str, previous: Option<&str>) -> Option<&'static str> {
         Some(match stem {
             "ground_over_gravity" => "Ground acceleration in units of gravity.",
             "lever" | "moment" => {
-                "Levers d' and first moments S' in the axes of the ground: derivatives by the angles of their links."
+                "Derivatives of the turned levers (d') and first moments (S') by the angles of their links, in the axes of the ground."
             }
             "test" => "Directions of the tests: along the face, lifted by the coefficient of friction.",
             "coupling" => {
-                "Couplings of angles and translations: coupling_a_c is the work of translation c on first moments that angle a turns."
+                "Matrix entries of angle a and translation c: coupling_a_c is P_ca', the derivative of a first moment by the angle, along the translation."
             }
             "tested_coupling" | "tested_mass" => {
                 "Rows of the translations: tested_coupling_c_a by angle a, tested_mass_c_d by translation d."
             }
-            "coriolis" => "Accelerations by the turning of faces along which blocks slide.",
+            "coriolis" => "Coriolis accelerations of the translations along faces that turn.",
             "tested_load" => "Loads of the translations: minus the forces, tested.",
             stem if stem.starts_with("carried") => {
                 "First moments P' of what the translations carry, in the axes of the ground: carried_c_x_a is a derivative by angle a."
@@ -61,12 +61,14 @@ pub fn group(name: &str, previous: Option<&str>) -> Option<&'static str> {
                 "Accelerations of the pivots at constant rates, ground motion and gravity included, from the base up."
             }
             "pull" => "Centripetal forces of the links above, from the top down.",
-            "load" => "Loads in M theta_ddot = load: gravity, ground motion and squared rates.",
+            "load" => "Loads of the angles: gravity, ground motion and squared rates.",
             "reduced" | "scaled" | "factor" | "diagonal" | "inverse" | "determinant" => {
-                "Elimination M = L D L^T with D_1 = 1: diagonal and inverse are D and 1 / D, scaled is L D, factor is L, reduced is L^-1 load. The last two of three or more links are one block of D."
+                "Elimination M = L D L^T with D_1 = 1: diagonal and inverse are D and 1 / D, scaled is L D below the blocks of D, factor is L, reduced is L^-1 load. The last two of three or more links are one 2x2 block of D, with its entry off the diagonal (scaled), its determinant, and its inverse."
             }
             "force" => "Force on the stack, the sum of mass times (acceleration + gravity), in the axes of the ground.",
-            "theta_ddot" | "rest" => "Back substitution.",
+            "theta_ddot" | "rest" => {
+                "Back substitution: rest_a_b is the solution for link a without the terms of links below b."
+            }
             _ => return None,
         })
     };
@@ -86,17 +88,20 @@ pub fn meaning(name: &str) -> String {
     let side = if stem.ends_with("axial") { "axial" } else { "lateral" };
     match stem {
         "inertia" => format!("moment of inertia J_{link}{by_inertia}"),
-        "moment_axial" | "moment_lateral" => format!("{side} first moment of S_{link}{by_inertia}"),
+        "moment_axial" | "moment_lateral" => format!("{side} component of the first moment S_{link}{by_inertia}"),
         "lever_axial" | "lever_lateral" => format!("{side} component of the lever d_{link}"),
-        "weight_axial" | "weight_lateral" => format!("{side} first moment of S_{link}, times gravity, over J_1"),
+        "weight_axial" | "weight_lateral" => format!("{side} component of the first moment S_{link}, times gravity, over J_1"),
         "steady_gravity" => "gravity, fixed by the scene".into(),
         "inverse_gravity" => "reciprocal of gravity".into(),
-        "ground_moment" => "first moment above the ground of the masses that no angle lifts".into(),
+        "ground_moment" => "potential energy over gravity without the terms of the angles: masses times heights, those of moving links at the height of the lowest pivot".into(),
         "coupling_dot" => format!("scalar product of d_{link} and S_{}", numbers.last().copied().unwrap_or_default()),
-        "coupling_cross" => format!("cross product of d_{link} and S_{}", numbers.last().copied().unwrap_or_default()),
+        "coupling_cross" => {
+            let other = numbers.last().copied().unwrap_or_default();
+            format!("clockwise cross product of d_{link} and S_{other}: lateral d times axial S, minus axial d times lateral S")
+        }
         "stack_mass" => "mass of the stack above the interface".into(),
         "stack_axial" | "stack_lateral" => {
-            format!("{side} first moment of the stack about the pivot of link {link}")
+            format!("{side} first moment about the pivot of link {link} of what the link turns of the stack, masses of higher links in the next pivot")
         }
         "contact_lever_axial" | "contact_lever_lateral" => format!("{side} lever from the contact to the next pivot"),
         "contact_moment_axial" | "contact_moment_lateral" => {
@@ -109,7 +114,7 @@ pub fn meaning(name: &str) -> String {
         "contact_cross" | "contact_dot" if numbers.is_empty() => {
             "moment about the contact per squared rate of its link".into()
         }
-        "contact_cross" => format!("cross product of the lever from the contact to the next pivot and S_{link}"),
+        "contact_cross" => format!("clockwise cross product of the lever from the contact to the next pivot and S_{link}"),
         "contact_dot" => format!("scalar product of the lever from the contact to the next pivot and S_{link}"),
         _ => "coefficient of the factors in its name".into(),
     }

@@ -40,8 +40,11 @@ pub fn interface_forces(
         })
         .collect();
     let force = [0, 1].map(|axis| {
-        let terms: Vec<_> =
-            inertial.iter().zip(&symbols.mass[interface..]).map(|(a, &mass)| times_sum(arena, mass, a[axis])).collect();
+        let terms: Vec<_> = inertial
+            .iter()
+            .zip(&symbols.mass[interface..])
+            .map(|(a, &mass)| arena.distributed(mass, a[axis]))
+            .collect();
         arena.total(terms)
     });
     let lower_link = if interface == 0 { 0 } else { links[interface - 1] };
@@ -70,7 +73,7 @@ fn moment(arena: &mut Arena, symbols: &Symbols, linkage: &Linkage, inertial: &[V
         let lever = lever.map(|component| arena.substitute(component, &in_place));
         for axis in 0..2 {
             let weighted = arena.mul(symbols.mass[block], lever[axis]);
-            terms.push(times_sum(arena, weighted, acceleration[axis]));
+            terms.push(arena.distributed(weighted, acceleration[axis]));
         }
         if own > 0 && links[block] == own {
             terms.push(arena.mul(symbols.inertia[block], symbols.alpha[own - 1]));
@@ -87,12 +90,6 @@ fn virtual_angle_in_place(arena: &mut Arena, symbols: &Symbols, link: usize) -> 
         _ => (arena.sin(symbols.theta[link - 1]), arena.cos(symbols.theta[link - 1])),
     };
     HashMap::from([(sine, to_sine), (cosine, to_cosine)])
-}
-
-/// `factor · Σ terms`, term by term.
-fn times_sum(arena: &mut Arena, factor: Expr, sum: Expr) -> Expr {
-    let terms: Vec<_> = arena.terms(sum).into_iter().map(|(c, term)| (c, arena.mul(factor, term))).collect();
-    arena.sum(terms)
 }
 
 /// Normal and tangential part of a force in the axes of a link (0: the ground): `[N, T]`.

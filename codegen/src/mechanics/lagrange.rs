@@ -67,7 +67,7 @@ pub fn equations_of_motion(arena: &mut Arena, symbols: &Symbols, linkage: &Linka
         let mut bias: Vec<Expr> = Vec::new();
         for (angle, rate) in symbols.theta.iter().zip(&symbols.omega) {
             let slope = arena.differentiate(momentum, *angle);
-            let expanded = distribute_over_terms(arena, slope, *rate);
+            let expanded = arena.distributed(*rate, slope);
             bias.push(expanded);
         }
         let gradient = arena.differentiate(kinetic, symbols.theta[link]);
@@ -90,12 +90,6 @@ pub fn equations_of_motion(arena: &mut Arena, symbols: &Symbols, linkage: &Linka
         equations.lever.push(jacobian(arena, top, symbols.theta[link]));
     }
     equations
-}
-
-/// `Σ (term · factor)` for the terms of `expr`.
-fn distribute_over_terms(arena: &mut Arena, expr: Expr, factor: Expr) -> Expr {
-    let terms: Vec<_> = arena.terms(expr).into_iter().map(|(c, term)| (c, arena.mul(term, factor))).collect();
-    arena.sum(terms)
 }
 
 /// Multiplies velocities out into one part per rate, so that the products of two different rates cancel. The factors of the rates, which

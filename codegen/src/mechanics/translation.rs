@@ -19,7 +19,7 @@
 //! `w_c` is counted from the instant of the derivation, at which `w = 0`. The slide up to then, `u_c`, is contained in the first moments and levers of
 //! the link with whose angle the face turns.
 
-use super::kinematics::{Bodies, Symbols, Vector, dot, jacobian, rotate, total_derivative};
+use super::kinematics::{Bodies, Symbols, Vector, jacobian, rotate, total_derivative};
 use super::lagrange::{Equations, equations_of_motion};
 use crate::pattern::Linkage;
 use crate::symbolic::{Arena, Expr, Level, Unit};
@@ -162,11 +162,4 @@ fn coordinates(arena: &mut Arena, symbols: &Symbols, translations: &[Translation
         coordinates.push([each.way, each.rate, each.acceleration]);
     }
     coordinates
-}
-
-impl Moving {
-    /// Row of a translation (from zero): `F_c` tested along the lifted face. The equation of motion is that this vanishes.
-    pub fn row(&self, arena: &mut Arena, translation: usize) -> Expr {
-        dot(arena, self.translations[translation].test, self.force[translation])
-    }
 }

@@ -9,8 +9,6 @@ use super::step::Parts;
 use crate::mechanics::{Moving, Vector};
 use crate::symbolic::{Arena, Expr, Rational};
 
-const MINUS: Rational = Rational { numerator: -1, denominator: 1 };
-
 /// The program with one routine, `rows`: the matrix row by row, then the loads.
 pub fn moving_program(arena: &mut Arena, moving: &Moving) -> Program {
     let symbols = &moving.symbols;
@@ -191,13 +189,13 @@ fn loads(
     for row in 0..symbols.theta.len() {
         let mut terms = Vec::new();
         for (driver, coefficient) in [symbols.ground_x, symbols.gravity].into_iter().zip(parts.forcing[row]) {
-            terms.push((MINUS, product(builder, coefficient, driver)));
+            terms.push((Rational::MINUS_ONE, product(builder, coefficient, driver)));
         }
         for (&coefficient, &square) in parts.bias[row].iter().zip(squares) {
-            terms.push((MINUS, product(builder, coefficient, square)));
+            terms.push((Rational::MINUS_ONE, product(builder, coefficient, square)));
         }
         for (vectors, each) in carried.iter().zip(translations) {
-            terms.push((MINUS, scalar_product(builder, vectors[row], each.coriolis)));
+            terms.push((Rational::MINUS_ONE, scalar_product(builder, vectors[row], each.coriolis)));
         }
         let load = builder.arena().sum(terms);
         loads.push(builder.define(format!("load_{}", row + 1), load));
@@ -209,7 +207,7 @@ fn loads(
         });
         let products = [0, 1].map(|axis| {
             let test = builder.translate(translations[index].test[axis]);
-            (MINUS, builder.arena().mul(test, force[axis]))
+            (Rational::MINUS_ONE, builder.arena().mul(test, force[axis]))
         });
         let load = builder.arena().sum(products);
         loads.push(builder.define(format!("tested_load_{}", index + 1), load));

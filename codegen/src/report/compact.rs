@@ -45,7 +45,8 @@ pub struct Position {
 pub struct Coupling {
     /// Links `a < b`, from zero.
     pub links: (usize, usize),
-    /// `[A, B]`, the scalar and the cross product of lever and first moment: `A = d_a·S_b`, `B = d_a×S_b`.
+    /// `[A, B]`, the scalar and the cross product of lever and first moment: `A = d_a·S_b`, `B = d_a×S_b`, counterclockwise: minus
+    /// `coupling_cross` of the emitted code, whose lateral components point to the left.
     pub parts: [Definition; 2],
 }
 

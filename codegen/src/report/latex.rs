@@ -281,7 +281,7 @@ impl Page<'_> {
         }
         self.display(&rows, false);
         if let Some(ground_moment) = &compact.ground_moment {
-            self.out.push_str("Of the potential energy no angle turns the part of [kg\\,m]\n");
+            self.out.push_str("The part of $V/\\hat g$ that contains no angle [kg\\,m] is\n");
             self.display(&[self.definition(ground_moment)], false);
         }
         if compact.coupling.is_empty() {
@@ -378,7 +378,8 @@ impl Page<'_> {
     fn program(&mut self, listing: &Listing, form: Form) {
         let text = format!(
             "Solved for the accelerations, as it is emitted for horizontal ground motion ({form}): {}, {} and {}, sines and \
-             cosines apart. Typewriter names are those of the code.",
+             cosines apart. Typewriter names are those of the code, in which lateral components point to the left, and cross products \
+             are clockwise: they are minus those above.",
             counted(listing.operations.additions, "addition"),
             counted(listing.operations.multiplications, "multiplication"),
             counted(listing.operations.divisions, "division"),

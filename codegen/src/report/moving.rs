@@ -50,12 +50,7 @@ pub fn moving_text(joints: &Joints) -> String {
         "\nEquations of motion: sum over b of M_a_b q_b_ddot + B_a + Q_a = 0, with q = ({}); what is zero is left out",
         names.join(", ")
     );
-    section(
-        &mut out,
-        &arena,
-        "What links and translations carry at the slides of the moment: inputs of the program",
-        inputs,
-    );
+    section(&mut out, &arena, "What links and translations carry at the present slides: inputs of the program", inputs);
     out.push_str(&program_text(&record.program));
     out
 }
@@ -122,7 +117,7 @@ pub fn moving_counts(joints: &Joints) -> String {
             writeln!(out, "{what:<60} {:>6} {additions:>10} {multiplications:>16} {divisions:>10}", operations.flops());
     };
     row("rows of these states: as differentiated", count_expressions(&arena, derived.clone()));
-    row("  constants at the slides of the moment hoisted", count_hoisted(&arena, derived));
+    row("  constants at the present slides hoisted", count_hoisted(&arena, derived));
     row(&format!("program {}", record.name()), record.program.operations("rows").unwrap_or_default());
     out.push_str(
         "\nAn addition or multiplication is one flop, a division is none; sines and cosines are inputs. Moments, levers and inertias at the slides of\n\
@@ -244,7 +239,7 @@ impl Sections<'_> {
         out.push_str(
             "\n\\section*{What links and translations carry}\nLink $a$ turns by $\\theta_a$ about its pivot. About it, $J_a$ [kg\\,m$^2$] is the moment of inertia and \
              $\\mathbf{S}_a$ [kg\\,m] the first moment of the link and all masses above, those in the next pivot, to which $\\mathbf{d}_a$ leads, lateral ($\\perp$) and axial \
-             ($\\parallel$). Translation $c$ moves the mass $M_c$ [kg], whose first moment as far as link $a$ turns it is $\\mathbf{P}_{ca}$ [kg\\,m]. At the slides of the moment,\n",
+             ($\\parallel$). Translation $c$ moves the mass $M_c$ [kg], whose first moment as far as link $a$ turns it is $\\mathbf{P}_{ca}$ [kg\\,m]. At the present slides,\n",
         );
         let mut definitions = Vec::new();
         let mut define = |name: String, value: Expr| definitions.push(self.equation(&name, value));
@@ -306,7 +301,9 @@ fn program(record: &MovingRecord, out: &mut String) {
     let _ = writeln!(
         out,
         "\n\\section*{{Program}}\nThe emitted program \\texttt{{{}}} serves all states with as many angles and translations. It has {} and {}; its inputs are sines \
-         and cosines, rates, and the moments, levers and masses that links and translations carry at the slides of the moment. Its statements, in order:",
+         and cosines, rates, and the moments, levers and masses that links and translations carry at the present slides. Its lateral components point to the left: they are minus those with $\\perp$ above. \
+         Of translation $c$, cos\\_face and sin\\_face are those of the angle of its face, face\\_omega the rate of the face, rate that of the translation, and lift \
+         its coefficient $\\mu_c$ with the sign of the slide; in flight the lift is zero, and the vertical direction has 0 and $-1$. Its statements, in order:",
         record.name(),
         counted(operations.additions, "addition"),
         counted(operations.multiplications, "multiplication")

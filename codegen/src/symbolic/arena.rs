@@ -363,6 +363,12 @@ impl Arena {
         }
     }
 
+    /// `factor · Σ terms`, term by term.
+    pub fn distributed(&mut self, factor: Expr, sum: Expr) -> Expr {
+        let terms: Vec<_> = self.terms(sum).into_iter().map(|(c, term)| (c, self.mul(factor, term))).collect();
+        self.sum(terms)
+    }
+
     /// The factors of a term read as a product.
     pub fn factors(&self, expr: Expr) -> Vec<(Expr, i32)> {
         match self.node(expr) {

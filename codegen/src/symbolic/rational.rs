@@ -16,6 +16,8 @@ impl Rational {
     pub const ZERO: Rational = Rational { numerator: 0, denominator: 1 };
     /// 1
     pub const ONE: Rational = Rational { numerator: 1, denominator: 1 };
+    /// -1
+    pub const MINUS_ONE: Rational = Rational { numerator: -1, denominator: 1 };
 
     /// `numerator / denominator`, reduced.
     ///

@@ -5,6 +5,7 @@ use crate::friction::chain::{Chain, Pose, Rates};
 use crate::friction::contact_problem::Touch;
 use crate::friction::gaps::{self, Corner};
 use crate::friction::joint::{Configuration, Face, Joint, Sign, Slip, face};
+use crate::mechanics::kinematics::Vec2;
 
 /// Gap that is rounding, as a share of the column's size; gap of angles that is rounding `[rad]`.
 const GAP_SHARE: f64 = 1e-12;
@@ -60,15 +61,41 @@ pub fn touching(column: &Column, resolution: Resolution, now: &Configuration) ->
         }
         Joint::Free => {
             let touches = |side| stays_at(column, resolution, &chain, &rates, interface, side);
+            let leaning = leaning_side(resolution, now, interface);
             match (touches(1), touches(-1)) {
-                (true, true) => Touch::Faces,
-                (true, false) => Touch::Corner(1),
-                (false, true) => Touch::Corner(-1),
                 (false, false) => Touch::Nothing,
+                (true, true) if leaning.is_none() || has_length(resolution, &chain, interface) => Touch::Faces,
+                (is_right, _) => Touch::Corner(leaning.unwrap_or(if is_right { 1 } else { -1 })),
             }
         }
     };
     (0..now.joints.len()).map(touch).collect()
+}
+
+/// The side on which a tilted block above the lowest one stands, if it stands: of two corners of opposite sides in one point, the one is on the end of the
+/// other's face. `None` for faces that lie on each other, and on the ground.
+pub fn leaning_side(resolution: Resolution, now: &Configuration, interface: usize) -> Option<Sign> {
+    let angle = now.relative_angle(interface);
+    let is_tilted = interface > 0 && angle.abs() > resolution.lowest_hop.max(resolution.angle);
+    is_tilted.then(|| if angle > 0.0 { 1 } else { -1 })
+}
+
+/// Whether a free interface that touches on both sides does so in two points, as faces that lie on each other do.
+fn has_length(resolution: Resolution, chain: &Chain, interface: usize) -> bool {
+    let [right, left] = [1, -1].map(|side| {
+        let corner = close_corners(resolution, chain, interface, side).next();
+        corner.map(|corner| gaps::place_and_axes(chain, corner).0)
+    });
+    let apart = |[one, other]: [Vec2; 2]| libm::hypot(one[0] - other[0], one[1] - other[1]);
+    right.zip(left).is_none_or(|(right, left)| apart([right, left]) > FACE_SHARE * resolution.size)
+}
+
+/// The corners of a side that are within `resolution` of the other block's face.
+fn close_corners(resolution: Resolution, chain: &Chain, interface: usize, side: Sign) -> impl Iterator<Item = Corner> {
+    Corner::of_side(interface, side).filter(move |corner| {
+        let [beside, above] = gaps::corner_position(chain, *corner);
+        beside <= resolution.gap && above.abs() <= resolution.gap
+    })
 }
 
 /// Whether a free interface stays in contact at a side: its corners there are within `resolution` of the face, and move away no faster than a bounce
@@ -83,15 +110,11 @@ fn stays_at(
 ) -> bool {
     let length = column.blocks()[interface].bottom_half_width;
     let bounce = (2.0 * column.gravity() * resolution.lowest_hop * length).sqrt();
-    let close = |corner: &Corner| {
-        let [beside, above] = gaps::corner_position(chain, *corner);
-        beside <= resolution.gap && above.abs() <= resolution.gap
-    };
     let stays = |corner: &Corner| {
         let [_, leaving] = gaps::slide_and_gap_rates(chain, rates, *corner);
         leaving >= -resolution.speed && leaving <= resolution.speed.max(bounce)
     };
-    let corners: Vec<Corner> = Corner::of_side(interface, side).filter(close).collect();
+    let corners: Vec<Corner> = close_corners(resolution, chain, interface, side).collect();
     !corners.is_empty() && corners.iter().all(stays)
 }
 

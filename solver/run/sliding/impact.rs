@@ -34,6 +34,11 @@ impl PendingTransition<'_> {
 
     /// A free interface lands with a corner.
     pub fn land(&mut self, corner: Corner) {
+        let corner = match contacts::leaning_side(self.resolution, &self.now, corner.interface) {
+            // The corner of the other side, on the end of this one's face.
+            Some(side) if side != corner.side => corner.opposite(),
+            _ => corner,
+        };
         let Corner { interface, side, .. } = corner;
         let chain = Chain::new(self.column(), &self.now);
         let [_, above] = gaps::corner_position(&chain, corner);

@@ -9,7 +9,7 @@ use crate::contact::noticeable_impulses;
 use crate::friction::chain::{BlockMotion, Chain, Rates};
 use crate::friction::contact_problem::Coefficients;
 use crate::friction::joint::{Configuration, Face, Joint, Slip};
-use crate::mechanics::dynamics::ContactForce;
+use crate::mechanics::dynamics::{ContactForce, Energy};
 use crate::mechanics::kinematics::Vec2;
 use crate::numerics::per_block::PerBlock;
 use crate::response::{
@@ -179,17 +179,17 @@ impl<'p> SlidingRecorder<'p> {
             states_after: None,
             slide: PerBlock::new(),
             blocks: Vec::new(),
-            energy_lost: impulses
-                .as_ref()
-                .map(|_| share_lost([before, after].map(|now| kinetic_energy(self.column(), now)))),
+            energy_lost: None,
             impulses: impulses.as_ref().map_or_else(PerBlock::new, |impulses| PerBlock::from_slice(impulses)),
         };
-        self.write_configurations(&mut event, [before, after]);
+        let [before, after] = self.write_configurations(&mut event, [before, after]).map(|energy| energy.kinetic);
+        let share_lost = if before > 0.0 { (before - after) / before } else { 0.0 };
+        event.energy_lost = impulses.is_some().then_some(share_lost);
         self.events.push(event);
     }
 
-    /// Writes the configurations before and after an event into it: states, slides and blocks. Returns the energies then `[J]`.
-    fn write_configurations(&self, event: &mut Event, states: [&Configuration; 2]) -> [f64; 2] {
+    /// Writes the configurations before and after an event into it: states, slides and blocks. Returns the energies then.
+    fn write_configurations(&self, event: &mut Event, states: [&Configuration; 2]) -> [Energy; 2] {
         let chains = states.map(|one| Chain::new(self.column(), one));
         let motions = [0, 1].map(|k| chains[k].motion(&Rates::of(states[k])));
         let block = |block: usize| BlockAtEvent {
@@ -243,7 +243,7 @@ impl<'p> SlidingRecorder<'p> {
             let before = sticking(&event.before, &event.theta, &event.omega_before);
             let after = sticking(&event.after, &event.theta, &event.omega_after);
             let energies = self.write_configurations(&mut event, [&before, &after]);
-            lost += energies[0] - energies[1];
+            lost += energies[0].total() - energies[1].total();
             for (interface, impulse) in event.impulses.iter_mut().enumerate() {
                 // An interface whose blocks turn alike was closed in the impact: their accelerations open it.
                 let is_corner = before.joints[interface].is_corner() || after.relative_rate(interface) != 0.0;
@@ -519,23 +519,13 @@ fn at_corner(impulse: Impulse, place: f64, turn: f64) -> Impulse {
 /// Kinetic and potential energy relative to the moving ground `[J]`.
 fn energy(column: &Column, configuration: &Configuration) -> f64 {
     let chain = Chain::new(column, configuration);
-    energy_of(&chain, &chain.motion(&Rates::of(configuration)))
+    energy_of(&chain, &chain.motion(&Rates::of(configuration))).total()
 }
 
-/// Kinetic energy relative to the moving ground `[J]`.
-fn kinetic_energy(column: &Column, configuration: &Configuration) -> f64 {
-    Chain::new(column, configuration).motion(&Rates::of(configuration)).energy(column)
-}
-
-/// Share of an energy that is lost, from the energies before and after.
-fn share_lost([before, after]: [f64; 2]) -> f64 {
-    if before > 0.0 { (before - after) / before } else { 0.0 }
-}
-
-/// Kinetic and potential energy relative to the moving ground, from geometry and motion `[J]`.
-fn energy_of(chain: &Chain, motion: &BlockMotion) -> f64 {
+/// Energy relative to the moving ground, from geometry and motion.
+fn energy_of(chain: &Chain, motion: &BlockMotion) -> Energy {
     let column = chain.column();
     let lifted = column.blocks().iter().enumerate();
-    let potential: f64 = lifted.map(|(index, block)| block.mass * column.gravity() * chain.centroid(index)[1]).sum();
-    motion.energy(column) + potential
+    let potential = lifted.map(|(index, block)| block.mass * column.gravity() * chain.centroid(index)[1]).sum();
+    Energy { kinetic: motion.energy(column), potential }
 }

@@ -10,8 +10,6 @@ use crate::optimise::condense::collect;
 use crate::optimise::program::{Program, ProgramBuilder};
 use crate::symbolic::{Arena, Expr, Rational, Unit};
 
-const MINUS: Rational = Rational { numerator: -1, denominator: 1 };
-
 /// The program with one routine, `acceleration`, in a form that gives these equations ([`Parts::admit`]).
 pub fn acceleration_program(
     arena: &mut Arena,
@@ -140,9 +138,9 @@ impl Writer<'_, '_> {
         let mut loads = Vec::new();
         for (row, &weight) in weight.iter().enumerate() {
             let own = self.builder.translate(weight);
-            let mut terms = vec![(MINUS, own)];
+            let mut terms = vec![(Rational::MINUS_ONE, own)];
             for (&coefficient, &square) in couplings.bias[row].iter().zip(&squares) {
-                terms.push((MINUS, self.builder.arena().mul(coefficient, square)));
+                terms.push((Rational::MINUS_ONE, self.builder.arena().mul(coefficient, square)));
             }
             let load = self.builder.arena().sum(terms);
             loads.push(self.builder.define(format!("load_{}", row + 1), load));
@@ -196,11 +194,11 @@ impl Writer<'_, '_> {
                 let (x, y) = (arena.mul(x, pivot[row][0]), arena.mul(y, pivot[row][1]));
                 arena.add(x, y)
             };
-            let mut terms = vec![(MINUS, own)];
+            let mut terms = vec![(Rational::MINUS_ONE, own)];
             if let Some(pull) = pull[row] {
                 let lever = self.parts.lever[row].map(|component| self.builder.translate(component));
                 for (a, b) in lever.into_iter().zip(pull) {
-                    terms.push((MINUS, self.builder.arena().mul(a, b)));
+                    terms.push((Rational::MINUS_ONE, self.builder.arena().mul(a, b)));
                 }
             }
             let load = self.builder.arena().sum(terms);

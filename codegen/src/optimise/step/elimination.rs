@@ -9,8 +9,6 @@ use crate::optimise::program::ProgramBuilder;
 use crate::symbolic::{Expr, Rational};
 use std::ops::Range;
 
-const MINUS: Rational = Rational { numerator: -1, denominator: 1 };
-
 /// `M θ̈ = load` as values of a program.
 pub struct System<'a> {
     /// Diagonal of the mass matrix.
@@ -152,7 +150,7 @@ fn blocks(dof: usize) -> Vec<Range<usize>> {
 /// `value - Σ a b`
 fn less(builder: &mut ProgramBuilder, value: Expr, a: &[Expr], b: &[Expr]) -> Expr {
     let arena = builder.arena();
-    let products = a.iter().zip(b).map(|(a, b)| (MINUS, arena.mul(*a, *b)));
+    let products = a.iter().zip(b).map(|(a, b)| (Rational::MINUS_ONE, arena.mul(*a, *b)));
     let terms: Vec<_> = std::iter::once((Rational::ONE, value)).chain(products).collect();
     arena.sum(terms)
 }

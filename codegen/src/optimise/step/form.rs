@@ -71,6 +71,6 @@ impl fmt::Display for Form {
             Units::UnitInertia => "unit inertia",
             Units::UnitInertiaAndGravity => "unit inertia and gravity",
         };
-        write!(f, "turned vectors, {rates}, {weight}, {units}")
+        write!(f, "{rates}, {weight}, {units}")
     }
 }

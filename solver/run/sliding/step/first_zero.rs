@@ -37,6 +37,9 @@ const BISECTIONS: usize = 50;
 /// Multiple of the noise of a guard beyond which the guard has certainly left zero, upwards or downwards.
 const CLEAR_MULTIPLE: f64 = 8.0;
 
+/// Share of the time in which a gap would close at its rate, up to which a closing is looked for first: gravity delays or hastens it.
+const SOON: f64 = 2.0;
+
 /// Share of the step up to which the place is searched for at which a guard has left zero.
 const LARGEST_START: f64 = 0.1;
 
@@ -128,7 +131,10 @@ impl<O: Output> Step<'_, '_, O> {
         }
         if above >= -noise {
             let s = fall(self)?;
-            if s > 0.0 && gap(self, s)[0] <= CLEAR_MULTIPLE * START_ROUNDING * self.unit(guard) {
+            // Flush with the end of the face but for rounding, it lands unless it moves outward.
+            let flush =
+                if self.moves_outward(guard) { 0.0 } else { CLEAR_MULTIPLE * START_ROUNDING * self.unit(guard) };
+            if s > 0.0 && gap(self, s)[0] <= flush {
                 return Some(s);
             }
         }
@@ -210,8 +216,19 @@ impl<O: Output> Step<'_, '_, O> {
     fn crossing(&mut self, guard: Guard, value: &dyn Fn(&mut Self, f64) -> f64, limit: f64) -> Option<f64> {
         let start = value(self, 0.0);
         let noise = self.noise(guard);
-        if !guard.may_start_from_zero() || start > noise {
+        if !guard.may_start_from_zero() {
             return first_crossing(|s| value(self, s), start, limit);
+        }
+        if start > noise {
+            // A gap that is about to close may open again before the first sample.
+            let expected = SOON * start / -self.rate_at_start(guard);
+            let soon = if expected > 0.0 && expected < limit { expected } else { limit };
+            let found = first_crossing(|s| value(self, s), start, soon);
+            return if found.is_some() || soon == limit {
+                found
+            } else {
+                first_crossing(|s| value(self, s), start, limit)
+            };
         }
         if start < -CLEAR_MULTIPLE * noise {
             return Some(0.0);
@@ -268,7 +285,7 @@ impl<O: Output> Step<'_, '_, O> {
 
     /// Rate of a gap at the start, with the step as the unit of time; zero for a guard that is no gap, and where the gap alone decides nothing.
     fn rate_at_start(&mut self, guard: Guard) -> f64 {
-        let (h, noise, staying) = (self.h, self.noise(guard), self.staying(guard));
+        let (h, noise) = (self.h, self.noise(guard));
         let snapshot = self.at(0.0, false);
         let now = &snapshot.configuration;
         match guard {
@@ -277,15 +294,24 @@ impl<O: Output> Step<'_, '_, O> {
                 h * side * now.relative_rate(interface)
             }
             Guard::Land(corner) => {
-                let (chain, rates) = (snapshot.chain(), Rates::of(now));
-                let [beside, _] = gaps::corner_position(chain, corner);
+                let [beside, _] = gaps::corner_position(snapshot.chain(), corner);
                 // Flush with the end of the face, the corner passes beside it if it moves outward.
-                let passes =
-                    beside > noise || beside >= -noise && h * gaps::outward_rate(chain, &rates, corner) > staying;
-                if passes { 0.0 } else { h * gaps::slide_and_gap_rates(chain, &rates, corner)[1] }
+                if beside > noise || beside >= -noise && self.moves_outward(guard) {
+                    return 0.0;
+                }
+                let snapshot = self.at(0.0, false);
+                h * gaps::slide_and_gap_rates(snapshot.chain(), &Rates::of(&snapshot.configuration), corner)[1]
             }
             _ => 0.0,
         }
+    }
+
+    /// Whether a corner that may land moves outward along the other block's face at the start, faster than contacts that stay.
+    fn moves_outward(&mut self, guard: Guard) -> bool {
+        let (Guard::Land(corner), staying) = (guard, self.staying(guard)) else { return false };
+        let h = self.h;
+        let snapshot = self.at(0.0, false);
+        h * gaps::outward_rate(snapshot.chain(), &Rates::of(&snapshot.configuration), corner) > staying
     }
 
     /// Rate of a gap of contacts that stay, with the step as the unit of time; infinite for a guard that is no gap.
