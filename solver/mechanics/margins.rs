@@ -197,10 +197,10 @@ impl Margins {
     ) -> Option<[f64x2; MAX_ORDER]> {
         let (mut terms, mut weights) = ([f64x2::ZERO; MAX_ORDER], [[f64x2::ZERO; 2]; MAX_ORDER]);
         let mut power = 1.0;
-        for k in 0..series.order() {
-            terms[k] = self.coefficient(&self.corners[index], series, ground, k, &mut weights) * f64x2::splat(power);
+        for (k, term) in terms.iter_mut().enumerate().take(series.order()) {
+            *term = self.coefficient(&self.corners[index], series, ground, k, &mut weights) * f64x2::splat(power);
             power *= reach;
-            if is_enough(k, terms[k]) {
+            if is_enough(k, *term) {
                 return None;
             }
         }

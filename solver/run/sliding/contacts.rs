@@ -77,7 +77,7 @@ pub fn touching(column: &Column, resolution: Resolution, now: &Configuration) ->
 pub fn leaning_side(resolution: Resolution, now: &Configuration, interface: usize) -> Option<Sign> {
     let angle = now.relative_angle(interface);
     let is_tilted = interface > 0 && angle.abs() > resolution.lowest_hop.max(resolution.angle);
-    is_tilted.then(|| if angle > 0.0 { 1 } else { -1 })
+    is_tilted.then_some(if angle > 0.0 { 1 } else { -1 })
 }
 
 /// Whether a free interface that touches on both sides does so in two points, as faces that lie on each other do.
