@@ -28,7 +28,7 @@ fn operation_counts_are_printed_before_and_after_each_pass() {
     assert_eq!(flops_of("each term in its cheapest form"), 119);
     assert_eq!(flops_of("scene constants hoisted"), 51);
     assert_eq!(flops_of("rates by pairs, weight by vector, SI"), 100);
-    let kept: Vec<&str> = output.lines().filter(|line| line.starts_with("* turned")).collect();
+    let kept: Vec<&str> = output.lines().filter(|line| line.starts_with("* rates")).collect();
     assert_eq!(kept.len(), 2);
     assert!(kept[0].contains(" 94 ") && kept[1].contains(" 97 "), "{kept:?}");
 }

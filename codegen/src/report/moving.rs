@@ -51,6 +51,11 @@ pub fn moving_text(joints: &Joints) -> String {
         names.join(", ")
     );
     section(&mut out, &arena, "What links and translations carry at the present slides: inputs of the program", inputs);
+    out.push_str(
+        "Inputs that are not listed are zero. Lateral components point to the left. Further inputs of translation c: cos_face_c and sin_face_c of the angle\n\
+         of its face, face_omega_c, the rate of the face, rate_c, that of the translation, and lift_c, mu with the sign of the slide. In flight lift_c is zero,\n\
+         and the vertical direction has cos_face_c = 0 and sin_face_c = -1.\n",
+    );
     out.push_str(&program_text(&record.program));
     out
 }
@@ -120,8 +125,8 @@ pub fn moving_counts(joints: &Joints) -> String {
     row("  constants at the present slides hoisted", count_hoisted(&arena, derived));
     row(&format!("program {}", record.name()), record.program.operations("rows").unwrap_or_default());
     out.push_str(
-        "\nAn addition or multiplication is one flop, a division is none; sines and cosines are inputs. Moments, levers and inertias at the slides of\n\
-         the moment are inputs of the program, and the rows are solved outside of it.\n",
+        "\nAn addition or multiplication is one flop, a division is none; sines and cosines are inputs. Moments, levers and inertias at the present\n\
+         slides are inputs of the program, and the rows are solved outside of it.\n",
     );
     out
 }
