@@ -269,6 +269,12 @@ pub fn record_columns(header: Vec<String>) -> Vec<usize> {
     studies::record_columns(&header)
 }
 
+/// Whether all rows of a table with these headings are of one record; `level` is the place of the measure.
+#[pyfunction]
+pub fn is_of_one_record(header: Vec<String>, level: usize) -> bool {
+    studies::is_of_one_record(&header, level)
+}
+
 /// The fragility of a limit state as JSON, and its statements.
 #[pyfunction]
 #[pyo3(signature = (runs, state, replicates = 1000, confidence = 0.9, seed = 0, layout = None))]

@@ -248,6 +248,17 @@ def test_bad_studies_are_refused() -> None:
         rk.Study(rk.sweep(rk.Scene(COLUMN, rk.Record.synthetic(1)), {"pgv": [0.1, 0.2]})).fragility("peak > 0.1")
 
 
+def test_a_sweep_of_one_ground_motion_is_of_one_record() -> None:
+    scene = rk.Scene(COLUMN, rk.Record.synthetic(1))
+    one = rk.sweep(scene, {"pgv": [0.05, 0.1, 0.3, 0.5, 0.7, 0.9]}, ask="peaks")
+    found = rk.Study(one).fragility("peak > 0.3", replicates=0)
+    assert (found.fit, found.records) == ("one-record", 1)
+    # A second axis of the ground motion makes other motions of it.
+    several = rk.sweep(scene, {"start": [0.0, 0.1, 0.2], "pgv": [0.3, 0.5, 0.7]}, ask="peaks")
+    with pytest.warns(UserWarning, match="values of `excitation.horizontal.start`"):
+        assert rk.Study(several).fragility("peak > 0.3", replicates=0).records == 9
+
+
 def test_a_study_without_companions_has_the_same_runs() -> None:
     records = rk.synthetic(range(2), duration=6.0)
     with_trust, without = (rk.ida(COLUMN, records, "pgv", [0.1, 0.2], trust=trust).table for trust in (True, False))

@@ -331,7 +331,7 @@ impl IntegrateOptions {
     }
 }
 
-/// Shortest step of methods without step control, as a share of the time integrated: a billion steps take minutes.
+/// Shortest step of methods without step control, as a share of the time integrated. Shorter ones end at no time that anybody waits for.
 const SHORTEST_STEP: f64 = 1e-9;
 
 /// Refuses times that do not ascend, and segments that do not cover them.

@@ -22,6 +22,8 @@ pub use fragility::{
     Bands, Count, Fit, Fragility, FragilityOptions, Goodness, Layout, MOST_REPLICATES, TooFewReplicates,
 };
 pub use ida::{Ida, IdaError, IdaOutcome, IdaRun, RunError, StudyRecord};
-pub use observation::{Cells, DEFAULT_STATES, LimitState, NoLimitState, Observation, WrongCell, record_columns};
+pub use observation::{
+    Cells, DEFAULT_STATES, LimitState, NoLimitState, Observation, WrongCell, is_of_one_record, record_columns,
+};
 pub use proportion::Proportion;
 pub use stripes::{FRACTILES, Stripe, fractile, stripes};

@@ -117,12 +117,19 @@ impl TryFrom<Cells<'_>> for Observation {
 }
 
 /// The columns of a table of runs that name the record of a run: `record` in the table of a study, in that of a sweep the axes over records
-/// ([`is_of_records`]). Empty if there is none: then each row has a record of its own.
+/// ([`is_of_records`]). Empty if there is none: then all rows are of one record ([`is_of_one_record`]), or each row has a record of its own.
 pub fn record_columns<S: AsRef<str>>(header: &[S]) -> Vec<usize> {
     match header.iter().position(|name| name.as_ref() == "record") {
         Some(record) => vec![record],
         None => (0..header.len()).filter(|place| is_of_records(header[*place].as_ref())).collect(),
     }
+}
+
+/// Whether all rows of a table of runs are of one record: the table is that of a sweep, and the measure, its column `level`, is the only axis of the ground
+/// motion.
+pub fn is_of_one_record<S: AsRef<str>>(header: &[S], level: usize) -> bool {
+    let is_of_motion = |place: &usize| header[*place].as_ref().starts_with("excitation.");
+    (0..header.len()).filter(is_of_motion).eq([level])
 }
 
 /// A limit state of a column.

@@ -219,12 +219,10 @@ impl Columns {
         given.iter().map(|(name, value)| Ok((place(name)?, value.as_str()))).collect()
     }
 
-    /// The name of the record of a row. Without a column of records, the rows of a sweep that changes nothing of the ground motion but the measure are of the
-    /// scene's record, and each row of any other table has a record of its own.
+    /// The name of the record of a row.
     fn record_of(&self, row: &StringRecord, number: usize) -> String {
-        let changes_motion = || self.others.iter().any(|place| self.names[*place].starts_with("excitation."));
         match &self.records[..] {
-            [] if self.has_index && !changes_motion() => "the scene's".into(),
+            [] if studies::is_of_one_record(&self.names, self.level) => "the record of the scene".into(),
             [] => format!("run {}", number + 1),
             columns => columns.iter().map(|place| &row[*place]).collect::<Vec<_>>().join(", "),
         }

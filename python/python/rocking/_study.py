@@ -238,6 +238,8 @@ class Study:
         of_records = [table.columns[place] for place in _rocking.record_columns(names)]
         if of_records:
             records = [", ".join(map(str, row)) for row in table[of_records].itertuples(index=False)]
+        elif _rocking.is_of_one_record(names, names.index(self.measure)):
+            records = ["the record of the scene"] * len(table)
         else:
             records = [f"run {number}" for number in range(1, len(table) + 1)]
 

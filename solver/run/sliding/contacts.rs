@@ -72,8 +72,8 @@ pub fn touching(column: &Column, resolution: Resolution, now: &Configuration) ->
     (0..now.joints.len()).map(touch).collect()
 }
 
-/// The side on which a tilted block above the lowest one stands, if it stands: of two corners of opposite sides in one point, the one is on the end of the
-/// other's face. `None` for faces that lie on each other, and on the ground.
+/// The side on which a tilted block above the lowest one stands, if it stands. Where its corner meets the corner of the other side of the block below, one of
+/// the two is on the end of the other block's face: the one on this side. `None` for faces that lie on each other, and on the ground.
 pub fn leaning_side(resolution: Resolution, now: &Configuration, interface: usize) -> Option<Sign> {
     let angle = now.relative_angle(interface);
     let is_tilted = interface > 0 && angle.abs() > resolution.lowest_hop.max(resolution.angle);

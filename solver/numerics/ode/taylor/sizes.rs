@@ -4,7 +4,7 @@ use wide::f64x2;
 
 /// Bound of all terms beyond those known, relative to the sum of the last two known. The value 2 holds if the sum of two terms is at most two thirds of
 /// that of the two before them; the terms of an accepted step fall faster.
-const REMAINDER_PER_LAST_TERMS: f64 = 2.0;
+const REMAINDER_PER_LAST_TWO: f64 = 2.0;
 
 /// Bounds of the magnitudes of a series' terms at the end of a step: of order zero, of order one, and of all later ones together.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -20,7 +20,7 @@ impl TermSizes {
     pub fn at(reach: f64, known: usize, magnitudes: impl Fn(usize) -> f64x2) -> TermSizes {
         let h = f64x2::splat(reach);
         let mut later =
-            (magnitudes(known - 1) * h + magnitudes(known - 2)) * f64x2::splat(1.0 + REMAINDER_PER_LAST_TERMS);
+            (magnitudes(known - 1) * h + magnitudes(known - 2)) * f64x2::splat(1.0 + REMAINDER_PER_LAST_TWO);
         for order in (2..known - 2).rev() {
             later = later * h + magnitudes(order);
         }
