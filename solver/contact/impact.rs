@@ -67,7 +67,7 @@ fn impact_at<S: Size>(
         free: &free,
         least_parting,
         answer: projected,
-        given: |block| sizes(&before, block),
+        given: &|block| sizes(&before, block),
     };
     let mut candidate = problem.candidate(guess)?;
     let is_impact_admissible = problem.solve(&mut candidate)? == Found::Admissible;
@@ -99,7 +99,7 @@ fn impact_at<S: Size>(
         free: &free,
         least_parting: 0.0,
         answer: forces,
-        given: |_| [ground.x.abs() + ground.gravity.abs(), 0.0],
+        given: &|_| [ground.x.abs() + ground.gravity.abs(), 0.0],
     };
     let mut candidate = Candidate { mechanism, answer: forced };
     let is_motion_admissible = problem.solve(&mut candidate)? == Found::Admissible;

@@ -42,7 +42,7 @@ fn open_at<S: Size>(
     }
     let forces = |candidate: &Mechanism<S>| accelerate(candidate, omega, ground);
     let given = |_: usize| [ground.x.abs() + ground.gravity.abs(), 0.0];
-    let problem = ContactProblem { at_event, free: &free, least_parting: 0.0, answer: &forces, given };
+    let problem = ContactProblem { at_event, free: &free, least_parting: 0.0, answer: &forces, given: &given };
     let mut candidate = problem.candidate(guess)?;
     let mut found = problem.solve(&mut candidate)?;
     let accelerations = &candidate.answer.angular;
@@ -53,7 +53,7 @@ fn open_at<S: Size>(
         released.iter().filter(is_driven_back).map(|(interface, _)| *interface).collect();
     if !driven_back.is_empty() {
         driven_back.iter().for_each(|&interface| free[interface] = true);
-        let problem = ContactProblem { at_event, free: &free, least_parting: 0.0, answer: &forces, given };
+        let problem = ContactProblem { at_event, free: &free, least_parting: 0.0, answer: &forces, given: &given };
         found = problem.solve(&mut candidate)?;
     }
     let pattern = Pattern::from_states(&candidate.mechanism.states);

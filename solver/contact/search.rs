@@ -16,7 +16,7 @@ const MOST_CHOICES: usize = 9;
 const CRITICAL_SHARE: f64 = 1e-12;
 
 /// A contact problem: which interfaces choose, and how a mechanism answers it.
-pub(super) struct ContactProblem<'i, 'a, S: Size, F, T> {
+pub(super) struct ContactProblem<'i, 'a, S: Size, F> {
     pub(super) at_event: &'i StateAtEvent<'a, S>,
     /// Whether an interface, at `φ = 0`, chooses its state.
     pub(super) free: &'i [bool],
@@ -24,10 +24,10 @@ pub(super) struct ContactProblem<'i, 'a, S: Size, F, T> {
     pub(super) least_parting: f64,
     pub(super) answer: F,
     /// Magnitudes of the given velocities, or accelerations, of a block, linear and angular: the rounding of an answer is a share of these.
-    pub(super) given: T,
+    pub(super) given: &'i dyn Fn(usize) -> [f64; 2],
 }
 
-impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>, T: Fn(usize) -> [f64; 2]> ContactProblem<'_, 'a, S, F, T> {
+impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>> ContactProblem<'_, 'a, S, F> {
     #[inline(always)]
     fn parts(&self, state: Interface, answer: &Answer<S>, interface: usize) -> bool {
         f64::from(state.sign()) * relative(&answer.angular, interface) >= self.least_parting
@@ -149,22 +149,24 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>, T: Fn(usize) -> [f64; 2
     /// than the one in which all free interfaces are open. Sides are taken in order of this bound, until it exceeds the distance of the nearest pattern.
     #[inline(never)]
     fn search_all(&self, guess: S::List<Interface>, candidate: &mut Candidate<'a, S>) -> Result<Found, SingularMass> {
-        let mut bounded = Vec::new();
-        for choice in 0..1 << chosen(self.free).count() {
+        let sides_of = |choice: usize| {
             let mut sides = guess.clone();
             for (bit, interface) in chosen(self.free).enumerate() {
                 sides[interface] = if choice >> bit & 1 == 0 { Interface::Right } else { Interface::Left };
             }
-            self.go_to(sides.clone(), candidate)?;
-            bounded.push((candidate.distance(), sides));
+            sides
+        };
+        let mut bounds = Vec::new();
+        for choice in 0..1 << chosen(self.free).count() {
+            self.go_to(sides_of(choice), candidate)?;
+            bounds.push(candidate.distance());
         }
-        bounded.sort_by(|(one, _), (other, _)| one.total_cmp(other));
         let mut nearest = Nearest::none();
-        for (bound, sides) in bounded {
-            if bound >= nearest.distance {
+        for choice in in_order(&bounds) {
+            if bounds[choice] >= nearest.distance {
                 break;
             }
-            if self.solve_with_sides(&sides, candidate)? {
+            if self.solve_with_sides(&sides_of(choice), candidate)? {
                 if self.is_admissible(candidate) {
                     return Ok(Found::Admissible);
                 }
@@ -203,6 +205,13 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>, T: Fn(usize) -> [f64; 2
         }
         Ok(false)
     }
+}
+
+/// The places of values, from the least value to the largest; equal values in their order.
+fn in_order(values: &[f64]) -> Vec<usize> {
+    let mut places: Vec<usize> = (0..values.len()).collect();
+    places.sort_by(|one, other| values[*one].total_cmp(&values[*other]));
+    places
 }
 
 /// A pattern that is tried, and how it answers a contact problem.
@@ -276,8 +285,8 @@ mod tests {
     }
 
     /// Compares both searches from a pattern with trying all patterns; returns how many of them are admissible.
-    fn compared<'i, 'a, F: Fn(&Mechanism<'a, Any>) -> Answer<Any>, T: Fn(usize) -> [f64; 2]>(
-        problem: &ContactProblem<'i, 'a, Any, F, T>,
+    fn compared<'a, F: Fn(&Mechanism<'a, Any>) -> Answer<Any>>(
+        problem: &ContactProblem<'_, 'a, Any, F>,
         states: &PerBlock<Interface>,
     ) -> usize {
         let candidate = |states: &PerBlock<Interface>| problem.candidate(states.clone()).expect("solvable");
@@ -349,7 +358,8 @@ mod tests {
             let free = at_event.size.list_of(|i| !states[i].is_open() || closing.contains(&i));
             let answer = |candidate: &Mechanism<Any>| project(candidate, &before);
             let given = |block: usize| sizes(&before, block);
-            let problem = ContactProblem { at_event, free: &free, least_parting: f64::MIN_POSITIVE, answer, given };
+            let problem =
+                ContactProblem { at_event, free: &free, least_parting: f64::MIN_POSITIVE, answer, given: &given };
             total.set(total.get() + 1);
             unique.set(unique.get() + usize::from(compared(&problem, &states) == 1));
         });
@@ -371,7 +381,7 @@ mod tests {
             let free = at_event.size.list_of(|_| true);
             let answer = |candidate: &Mechanism<Any>| accelerate(candidate, &zero, ground);
             let given = |_: usize| [x.abs() + gravity.abs(), 0.0];
-            let problem = ContactProblem { at_event, free: &free, least_parting: 0.0, answer, given };
+            let problem = ContactProblem { at_event, free: &free, least_parting: 0.0, answer, given: &given };
             let mut first = at_event.size.list(Interface::Closed);
             first[0] = Interface::Right;
             total.set(total.get() + 1);

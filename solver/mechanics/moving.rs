@@ -2,7 +2,7 @@
 //!
 //! Which program serves is known only when a stretch begins. So the lists have no fixed length here, and a program copies them into its arrays.
 
-use super::program::{Carried, MovingProgram, MovingState};
+use super::program::{Carried, MovingProgram, MovingState, leading};
 use crate::numerics::elimination::eliminate;
 use std::array::from_fn;
 
@@ -72,21 +72,21 @@ where
 {
     |lists, accelerations| {
         let carried = Carried::<f64, ANGLES, TRANSLATIONS> {
-            inertia: from_fn(|link| lists.inertia[link]),
-            moment: from_fn(|link| lists.moment[link]),
-            lever: from_fn(|link| lists.lever[link]),
-            mass: from_fn(|each| lists.mass[each]),
-            carried: from_fn(|each| from_fn(|link| lists.carried[each * ANGLES + link])),
-            lift: from_fn(|each| lists.lift[each]),
+            inertia: leading(&lists.inertia),
+            moment: leading(&lists.moment),
+            lever: leading(&lists.lever),
+            mass: leading(&lists.mass),
+            carried: from_fn(|each| leading(&lists.carried[each * ANGLES..])),
+            lift: leading(&lists.lift),
         };
         let state = MovingState {
-            cos: from_fn(|link| lists.cos[link]),
-            sin: from_fn(|link| lists.sin[link]),
-            omega: from_fn(|link| lists.omega[link]),
-            face_cos: from_fn(|each| lists.face_cos[each]),
-            face_sin: from_fn(|each| lists.face_sin[each]),
-            face_omega: from_fn(|each| lists.face_omega[each]),
-            rate: from_fn(|each| lists.rate[each]),
+            cos: leading(&lists.cos),
+            sin: leading(&lists.sin),
+            omega: leading(&lists.omega),
+            face_cos: leading(&lists.face_cos),
+            face_sin: leading(&lists.face_sin),
+            face_omega: leading(&lists.face_omega),
+            rate: leading(&lists.rate),
             ground_x: lists.ground[0],
             gravity: lists.ground[1],
         };

@@ -1,7 +1,8 @@
 //! Comments and lines of the emitted text.
 
 use proc_macro2::{Literal, TokenStream};
-use quote::quote;
+use quote::{format_ident, quote};
+use std::collections::HashSet;
 
 /// Longest line of a comment, in characters without its indentation. Indentation adds up to 16 characters.
 const COMMENT_WIDTH: usize = 104;
@@ -58,4 +59,19 @@ pub fn format(tokens: TokenStream) -> String {
 /// A count or an index, without the type suffix `usize` that `quote` would add.
 pub fn count(value: usize) -> Literal {
     Literal::usize_unsuffixed(value)
+}
+
+/// `let [cos_1, _, cos_3] = value;`. Names that the body does not read become `_`; nothing where it reads none of them.
+pub fn unpack(names: &[String], value: &TokenStream, read: &HashSet<&str>) -> TokenStream {
+    let is_read = |name: &String| read.contains(name.as_str());
+    if !names.iter().any(is_read) {
+        return TokenStream::new();
+    }
+    let names = names.iter().map(|name| format_ident!("{}", if is_read(name) { name } else { "_" }));
+    quote! { let [#(#names),*] = #value; }
+}
+
+/// The words of emitted text: names, keywords and numbers.
+pub fn words_of(text: &str) -> HashSet<&str> {
+    text.split(|c: char| !c.is_alphanumeric() && c != '_').collect()
 }

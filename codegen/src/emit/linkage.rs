@@ -1,7 +1,7 @@
 //! Per linkage: the functions that turn a column into scene constants, and the table that finds them.
 
 use super::expression::{Style, Writer};
-use super::layout::{count, doc};
+use super::layout::{count, doc, unpack, words_of};
 use super::step::{force_name, step_type, words};
 use crate::catalogue::{Catalogue, CompositeRecord, LinkageRecord};
 use crate::ground::GroundMotion;
@@ -117,13 +117,56 @@ pub fn scene_constants(
     }
     let lets = writer.finish();
     let results = constants.iter().map(|constant| format_ident!("{}", constant.name));
+    let body = quote! { #(#lets)* vec![#(#results),*] };
+    let sizes = sizes(&body.to_string());
     quote! {
         #doc
         fn #name<S: Scalar>(column: &Geometry<S>) -> Vec<S> {
-            #(#lets)*
-            vec![#(#results),*]
+            #sizes
+            #body
         }
     }
+}
+
+/// `let [h_1, h_2] = leading(&column.half_height);` and the like: the sizes that a body of a function reads.
+fn sizes(body: &str) -> TokenStream {
+    let read = words_of(body);
+    let families = FAMILIES.iter().map(|(family, letter)| {
+        let block = |word: &&str| word.strip_prefix(&letter.to_lowercase())?.parse::<usize>().ok();
+        let last = read.iter().filter_map(block).max().unwrap_or(0);
+        let names: Vec<String> = (1..=last).map(|block| variable(&format!("{family}_{block}"))).collect();
+        let family = format_ident!("{family}");
+        unpack(&names, &quote! { leading(&column.#family) }, &read)
+    });
+    let gravity = read.contains("g").then(|| quote! { let g = column.gravity; });
+    quote! { #(#families)* #gravity }
+}
+
+/// Sizes of the blocks, or of bodies, and the letters of the notation.
+const FAMILIES: [(&str, &str); 8] = [
+    ("pivot", "p_"),
+    ("half_height", "h_"),
+    ("mass", "m_"),
+    ("inertia", "I_"),
+    ("centroid_lateral", "e_x"),
+    ("centroid_axial", "e_"),
+    ("top_lateral", "t_x"),
+    ("top_axial", "t_"),
+];
+
+/// A symbol in the letters of the notation: `h_2` is `half_height_2`.
+fn letter(symbol: &str) -> String {
+    if symbol == "gravity" {
+        return "g".into();
+    }
+    let (family, block) = split(symbol);
+    let (_, letter) = FAMILIES.iter().find(|(name, _)| *name == family).expect("every size has a letter");
+    format!("{letter}{block}")
+}
+
+/// A symbol as generated code reads it: its letter, `i_2` for the moment of inertia.
+fn variable(symbol: &str) -> String {
+    letter(symbol).to_lowercase()
 }
 
 /// Names and formulas of scene expressions.
@@ -132,14 +175,10 @@ struct SceneNames<'a> {
 }
 
 impl Style for SceneNames<'_> {
-    /// `half_height_2` is `column.half_height[1]`.
+    /// `half_height_2` is `h_2`.
     fn symbol(&self, name: &str) -> TokenStream {
-        if name == "gravity" {
-            return quote! { column.gravity };
-        }
-        let (family, block) = split(name);
-        let (family, index) = (format_ident!("{family}"), count(block - 1));
-        quote! { column.#family[#index] }
+        let name = format_ident!("{}", variable(name));
+        quote! { #name }
     }
 
     /// Names by what a sub-expression is: a constant of `energies` gets its name there, a product the names of its factors, and a lever or a
@@ -177,15 +216,7 @@ impl Style for SceneNames<'_> {
     /// Unit and formula, written with the letters of the notation and with names given before.
     fn remark(&self, arena: &Arena, value: Expr, names: &HashMap<Expr, Ident>) -> Option<String> {
         let letter = |expr: Expr| match (names.get(&expr), arena.symbol_name(expr)) {
-            (_, Some("gravity")) => Some("g".into()),
-            (_, Some(name)) => Some(match split(name) {
-                ("inertia", block) => format!("I_{block}"),
-                ("centroid_lateral", block) => format!("e_x{block}"),
-                ("centroid_axial", block) => format!("e_{block}"),
-                ("top_lateral", block) => format!("t_x{block}"),
-                ("top_axial", block) => format!("t_{block}"),
-                (family, block) => format!("{}_{block}", &family[..1]),
-            }),
+            (_, Some(name)) => Some(letter(name)),
             (Some(name), _) if expr != value => Some(name.to_string()),
             _ => None,
         };

@@ -71,7 +71,7 @@ pub fn uses() -> TokenStream {
     quote! {
         use rocking::generated::{Equations, generated_mode};
         use rocking::pattern::Pattern;
-        use rocking::program::{CompositeEquations, EnergyProgram, Geometry, InterfaceEquations, LinkageEquations, Linkages, Scalar, SeriesProgram, StepProgram};
+        use rocking::program::{CompositeEquations, EnergyProgram, Geometry, InterfaceEquations, LinkageEquations, Linkages, Scalar, SeriesProgram, StepProgram, leading};
         use rocking::{Column, GroundMotion, Mode};
     }
 }

@@ -1,6 +1,6 @@
 //! The module of the programs with translations, and the excerpt for one program.
 
-use super::layout::{count, doc, format, heading};
+use super::layout::{count, doc, format, heading, unpack, words_of};
 use super::quantity::TRANSLATIONS;
 use super::step::statements;
 use crate::catalogue::map_in_order;
@@ -8,7 +8,6 @@ use crate::moving::{MovingRecord, covered};
 use crate::optimise::Program;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
-use std::collections::HashSet;
 
 /// The module of all programs with translations that columns of up to `max_blocks` blocks have, formatted.
 pub fn moving_module(max_blocks: usize, records: &[MovingRecord]) -> String {
@@ -93,18 +92,11 @@ fn body(record: &MovingRecord, program: &Program) -> TokenStream {
     quote! { #inputs #(#lets)* #result }
 }
 
-/// `let [link_inertia_1] = carried.inertia;` and the like. Names that the body does not read become `_`; arrays of which it reads no
-/// name are left out.
+/// `let [link_inertia_1] = carried.inertia;` and the like.
 fn inputs(record: &MovingRecord, used: &str) -> TokenStream {
-    let words: HashSet<&str> = used.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
+    let read = words_of(used);
     let mut lets = TokenStream::new();
-    let mut bind = |names: Vec<String>, value: TokenStream| {
-        let is_read = |name: &String| words.contains(name.as_str());
-        if names.iter().any(is_read) {
-            let names = names.iter().map(|name| format_ident!("{}", if is_read(name) { name } else { "_" }));
-            lets.extend(quote! { let [#(#names),*] = #value; });
-        }
-    };
+    let mut bind = |names: Vec<String>, value: TokenStream| lets.extend(unpack(&names, &value, &read));
     let numbered = |family: &str, number: usize| (1..=number).map(|each| format!("{family}_{each}")).collect();
     let vector =
         |family: &str, link: usize| ["lateral", "axial"].map(|axis| format!("{family}_{axis}_{link}")).to_vec();

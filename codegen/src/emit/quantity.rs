@@ -2,7 +2,7 @@
 
 /// Notation of the emitted modules, for their heads.
 pub const NOTATION: &str = "
-Blocks are counted from the base. In comments, p_i, h_i, m_i and I_i are the pivot offset, half-height, mass and centroidal moment of inertia of BLOCK i, and g is gravity; the code reads them as `column.pivot[i - 1]` and so on. The pivot offset is positive at the right corner, negative at the left corner, zero at a closed interface.
+Blocks are counted from the base. In comments, p_i, h_i, m_i and I_i are the pivot offset, half-height, mass and centroidal moment of inertia of BLOCK i, and g is gravity; the code writes i_i for I_i. The pivot offset is positive at the right corner, negative at the left corner, zero at a closed interface.
 
 Functions whose names end in `links_n` serve n links that are any rigid bodies: of tapered and displaced blocks, or several blocks that move as one. There p_i, m_i and I_i are those of BODY i, (e_xi, e_i) is its centroid and (t_xi, t_i) the centre of the contact above it, to the right and upwards from the centre of the contact below, in the axes of the body.
 
