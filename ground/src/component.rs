@@ -20,8 +20,12 @@ impl Direction {
         let is_vertical = |name: &str| {
             let name = name.trim().to_ascii_uppercase();
             let first = name.split([' ', '(']).next().unwrap_or("");
-            let code = is_channel_code(first) && first.ends_with(['Z', '3']);
-            code || VERTICAL.contains(&first.trim_end_matches(['1', '2']))
+            // A location code may follow: `BHZ00`.
+            let (code, location) = first.split_at_checked(CODE).unwrap_or((first, ""));
+            let is_location = location.bytes().all(|b| b.is_ascii_digit());
+            let is_code = is_channel_code(code) && code.ends_with(['Z', '3']) && is_location;
+            is_code
+                || VERTICAL.contains(&first.trim_end_matches(['1', '2']))
                 || first == "U-D"
                 || first.starts_with("VERT")
         };
@@ -43,7 +47,7 @@ const DOWN: [&str; 3] = ["DWN", "DOWN", "DN"];
 /// Endings of file names that name a vertical component.
 const VERTICAL: [&str; 9] = ["UP", "DWN", "DOWN", "VERT", "VER", "UD", "DN", "V", "Z"];
 /// Endings of file names that name a horizontal component.
-const HORIZONTAL: [&str; 8] = ["NS", "EW", "N", "E", "H1", "H2", "L", "T"];
+const HORIZONTAL: [&str; 10] = ["NS", "EW", "N", "E", "H1", "H2", "L", "T", "X", "Y"];
 
 /// Sort key of a name by the first number in it: RSN77 comes before RSN125.
 pub fn by_number(name: &str) -> (String, u64, String) {
@@ -65,13 +69,13 @@ pub fn record_and_component(file: &str) -> (Cow<'_, str>, &str) {
         return (if depth.is_empty() { stem.into() } else { format!("{stem} {depth}").into() }, extension);
     }
     let (common, component) = component_of_stem(stem);
-    let digits = stem.get(3..).map_or(0, |rest| rest.bytes().take_while(u8::is_ascii_digit).count());
-    if digits > 0 && stem[..3].eq_ignore_ascii_case("RSN") {
-        return (stem[..3 + digits].to_ascii_uppercase().into(), component);
-    }
     // Network, station and channel code parted by points.
     let parts: Vec<&str> = stem.split('.').collect();
     let code = parts.iter().position(|part| is_channel_code(part)).filter(|_| parts.len() > 2);
+    let digits = stem.get(3..).map_or(0, |rest| rest.bytes().take_while(u8::is_ascii_digit).count());
+    if digits > 0 && stem[..3].eq_ignore_ascii_case("RSN") {
+        return (stem[..3 + digits].to_ascii_uppercase().into(), code.map_or(component, |place| parts[place]));
+    }
     match code {
         Some(place) => {
             let rest: Vec<&str> =
@@ -82,11 +86,18 @@ pub fn record_and_component(file: &str) -> (Cow<'_, str>, &str) {
     }
 }
 
-/// `HNE`, `HGZ`: band, instrument (N, L, G for accelerometers), direction.
+/// Length of a channel code.
+const CODE: usize = 3;
+
+/// `HNE`, `HGZ`, `BHZ`: band, instrument (N, L, G for accelerometers, H for seismometers), direction.
 fn is_channel_code(part: &str) -> bool {
     matches!(
         part.as_bytes(),
-        [b'H' | b'B' | b'E' | b'C' | b'S', b'N' | b'L' | b'G', b'E' | b'N' | b'Z' | b'1' | b'2' | b'3' | b'X' | b'Y']
+        [
+            b'H' | b'B' | b'E' | b'C' | b'S',
+            b'N' | b'L' | b'G' | b'H',
+            b'E' | b'N' | b'Z' | b'1' | b'2' | b'3' | b'X' | b'Y'
+        ]
     )
 }
 
@@ -134,6 +145,11 @@ mod tests {
             ("RSN9_X-VER.AT2", "RSN9", "VER", true),
             ("RSN8500_VIRGINIA_HNZ.AT2", "RSN8500", "HNZ", true),
             ("rsn8500_virginia_hne.at2", "RSN8500", "hne", false),
+            ("RSN10590_ComalTX11-10-20_IU.CCM.BHZ.00.AT2", "RSN10590", "BHZ", true),
+            ("RSN10590_ComalTX11-10-20_IU.CCM.BH1.00.AT2", "RSN10590", "BH1", false),
+            ("quake_HHZ.csv", "quake", "HHZ", true),
+            ("quake_X.txt", "quake", "X", false),
+            ("quake_Z.txt", "quake", "Z", true),
             ("ELC180.AT2", "ELC", "180", false),
             ("ELC-UP.AT2", "ELC", "UP", true),
             ("I-ELC-V.AT2", "I-ELC", "V", true),
@@ -161,7 +177,9 @@ mod tests {
         assert_eq!(names, ["RSN77", "RSN125", "RSN1004", "X"]);
         assert_eq!(Direction::of("", "Up"), Direction::Vertical);
         assert_eq!(Direction::of("", "U-D surface (6)"), Direction::Vertical);
+        assert_eq!(Direction::of("", "BHZ00"), Direction::Vertical);
         assert_eq!(Direction::of("", "90 Deg"), Direction::Horizontal);
+        assert_eq!(Direction::of("", "BH100"), Direction::Horizontal);
         assert!(points_down("DWN", "") && points_down("", "Down (3)") && !points_down("UP", "U-D"));
     }
 }

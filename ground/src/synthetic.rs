@@ -191,7 +191,7 @@ mod tests {
             let record = Synthetic { seed, ..Synthetic::default() }.record().expect("valid");
             let motion = crate::Motion::Record(record);
             let [velocity, _] = motion.travel(20.0);
-            let [_, peak, _] = motion.peaks(20.0);
+            let [_, peak, _] = motion.peaks(0.0, 20.0);
             assert!(velocity.abs() < 0.1 * peak, "seed {seed}: {velocity} of {peak} m/s");
         }
     }

@@ -24,28 +24,36 @@ impl Motion {
         [state.velocity, state.displacement]
     }
 
-    /// Largest magnitudes of acceleration, velocity and displacement up to `until [s]`: PGA, PGV, PGD. They are exact for records and other
-    /// linear pieces, and accurate to some millionths for formulas: for a harmonic motion of any duration, for other formulas of up to
+    /// Largest magnitudes of acceleration, velocity and displacement between two times `[s]`: PGA, PGV, PGD. Velocity and displacement are those since the
+    /// ground was at rest; a displacement that goes on after the end of the motion, with the velocity that is left, does not count. They are exact for
+    /// records and other linear pieces, and accurate to some millionths for formulas: for a harmonic motion of any duration, for other formulas of up to
     /// 390 rad. Of longer ones they may be a little too small.
-    pub fn peaks(&self, until: f64) -> [f64; 3] {
+    pub fn peaks(&self, from: f64, until: f64) -> [f64; 3] {
         let (mut state, mut peaks) = (Travel::default(), [0.0f64; 3]);
         let mut note = |values: [f64; 3]| peaks.iter_mut().zip(values).for_each(|(peak, v)| *peak = peak.max(v.abs()));
         for span in self.pieces().iter().take_while(|span| span.start < until) {
             state.wait_until(span.start);
-            let end = span.end.min(until);
+            if span.end <= from {
+                state.move_with(&span.piece, span.end);
+                continue;
+            }
+            let (start, end) = (span.start.max(from), span.end.min(until));
+            state.move_with(&span.piece, start);
             if let Piece::Linear { .. } = span.piece {
-                let [a, b] = [span.start, end].map(|t| span.piece.value(t));
-                let interval = LinearInterval { a, b, h: end - span.start, v: state.velocity, d: state.displacement };
+                let [a, b] = [start, end].map(|t| span.piece.value(t));
+                let interval = LinearInterval { a, b, h: end - start, v: state.velocity, d: state.displacement };
                 let [velocity, displacement] = interval.peaks();
                 note([a, velocity, displacement]);
             }
-            for t in places(span.start, end, span.piece.omega()) {
+            for t in places(start, end, span.piece.omega()) {
                 state.move_with(&span.piece, t);
                 note([span.piece.value(t), state.velocity, state.displacement]);
             }
         }
-        state.wait_until(until);
-        note([0.0, state.velocity, state.displacement]);
+        if self.end().is_none_or(|end| until < end) {
+            state.wait_until(until);
+            note([0.0, state.velocity, state.displacement]);
+        }
         peaks
     }
 }
@@ -161,14 +169,14 @@ mod tests {
 
     #[test]
     fn peaks_are_those_of_the_formulas() {
-        let peaks = Motion::SinePulse { amplitude: 2.0, omega: 4.0, start: 0.7 }.peaks(10.0);
+        let peaks = Motion::SinePulse { amplitude: 2.0, omega: 4.0, start: 0.7 }.peaks(0.0, 10.0);
         let expected = [2.0, 2.0 * 2.0 / 4.0, TAU * 2.0 / 16.0];
         assert!(
             peaks.iter().zip(expected).all(|(peak, expected)| (peak - expected).abs() < 1e-3 * expected),
             "{peaks:?}"
         );
         let wavelet = Motion::AntisymmetricRicker { amplitude: 2.0, omega: 4.0, start: 0.0 };
-        assert!((wavelet.peaks(100.0)[0] - 2.0).abs() < 2e-5);
+        assert!((wavelet.peaks(0.0, 100.0)[0] - 2.0).abs() < 2e-5);
     }
 
     /// A sine from rest moves the ground with the velocity `a/ω (1 - cos ωt)`; a cosine brings it back in every period.
@@ -178,7 +186,7 @@ mod tests {
         for frequency in [0.5, 10.0, 25.0, 50.0] {
             let omega = TAU * frequency;
             for until in [20.0, 100.0, 2000.0, 2000.013, 1e5] {
-                let peaks = |phase: f64| Motion::Harmonic { amplitude, omega, start: 0.0, phase }.peaks(until);
+                let peaks = |phase: f64| Motion::Harmonic { amplitude, omega, start: 0.0, phase }.peaks(0.0, until);
                 let whole = (until * frequency).fract().min(1.0 - (until * frequency).fract()) < 1e-6;
                 let [pga, pgv, pgd] = peaks(0.0);
                 assert!((pga / amplitude - 1.0).abs() < 2e-6, "{frequency} Hz, {until} s: {pga}");
@@ -204,11 +212,24 @@ mod tests {
     fn peaks_of_a_record_are_its_measures() {
         // v = h/2 at the first crest, h/2 + h/4 in the middle of the fall.
         let record = Record::new(vec![0.0, 1.0, -1.0, 0.0], 0.02, 0.0).expect("valid");
-        assert!((Motion::Record(record).peaks(1.0)[1] - 0.75 * 0.02).abs() < 1e-16);
+        assert!((Motion::Record(record).peaks(0.0, 1.0)[1] - 0.75 * 0.02).abs() < 1e-16);
         let noise = Synthetic { seed: 3, duration: 5.0, ..Synthetic::default() }.record().expect("valid");
         let (measures, motion) = (noise.measures(9.81), Motion::Record(noise.starting_at(0.3)));
-        for (peak, measure) in motion.peaks(5.3).iter().zip([measures.pga, measures.pgv, measures.pgd]) {
+        for (peak, measure) in motion.peaks(0.0, 5.3).iter().zip([measures.pga, measures.pgv, measures.pgd]) {
             assert!((peak / measure - 1.0).abs() < 1e-11, "{peak} {measure}");
         }
+    }
+
+    #[test]
+    fn peaks_are_those_of_the_time_that_is_asked_for() {
+        // A ground that is left with 1 m/s, displaced by 0.05 m at 0.1 s. The acceleration falls from 20 m/s² to zero.
+        let record = |start| Motion::Record(Record::new(vec![20.0, 0.0], 0.1, start).expect("valid"));
+        let [pga, pgv, pgd] = record(0.0).peaks(0.0, 10.0);
+        // Integrals of 20 - 200 t: 20 t - 100 t², and 10 t² - 100/3 t³.
+        assert!((pga - 20.0).abs() < 1e-12 && (pgv - 1.0).abs() < 1e-12 && (pgd - 0.2 / 3.0).abs() < 1e-12, "{pgd}");
+        // From the middle on: 10 m/s², and velocities and displacements that the first half has brought.
+        let later = record(-0.05).peaks(0.0, 10.0);
+        assert!((later[0] - 10.0).abs() < 1e-12 && (later[1] - 1.0).abs() < 1e-12, "{later:?}");
+        assert_eq!(record(-0.2).peaks(0.0, 10.0), [0.0; 3]);
     }
 }

@@ -78,7 +78,7 @@ fn survives(bytes: &[u8], seed: u64) {
                 let are_numbers = measures.as_object().expect("fields").values().all(|value| value.is_f64());
                 assert!(are_numbers, "seed {seed}: {measures}");
                 let end = record.duration() + 1.0;
-                let peaks = Motion::Record(record).peaks(end);
+                let peaks = Motion::Record(record).peaks(0.0, end);
                 assert!(peaks.iter().all(|peak| peak.is_finite()), "seed {seed}: {peaks:?}");
             }
             Err(error) => {

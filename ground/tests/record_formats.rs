@@ -236,6 +236,25 @@ fn a_file_that_is_cut_off_is_refused() {
 }
 
 #[test]
+fn two_units_are_refused_unless_the_options_are_lenient() {
+    let peer = text("peer/RSN9001_HOLLOW_MIL090.AT2");
+    let (series, count) = ("ACCELERATION TIME SERIES IN UNITS OF G", "NPTS=");
+    assert!(peer.contains(series) && peer.contains(count));
+    let both = peer.replacen(count, &format!("ACCELERATION IN UNITS OF CM/S2\n{count}"), 1);
+    let table = "# units g\n# units m/s2\n0,0.1\n0.01,0.2\n0.02,0.1\n".to_string();
+    for text in [both, table] {
+        let error = refused(text.as_bytes(), &options()).to_string();
+        assert!(error.contains("is stated, and"), "{error}");
+        let file = RecordFile::read(text.as_bytes(), &TextOptions { lenient: true, ..options() }).expect("lenient");
+        assert!(file.warnings.iter().any(|warning| warning.contains("is stated, and")), "{:?}", file.warnings);
+    }
+    // A peak in another unit, in the line of the unit.
+    let peak = peer.replacen(series, "ACCELERATION TIME SERIES IN G; PGA IN CM/S2 = 293", 1);
+    let file = RecordFile::read(peak.as_bytes(), &options()).expect("g");
+    assert_eq!(file.accel, read("peer/RSN9001_HOLLOW_MIL090.AT2", &options()).accel);
+}
+
+#[test]
 fn a_file_that_ends_within_a_number_gives_the_numbers_before_it_where_that_is_allowed() {
     let text = text("peer/RSN9001_HOLLOW_MIL090.AT2");
     let cut = &text[..text.rfind("E-").expect("the last sample") + 2];
@@ -580,7 +599,11 @@ fn tables_are_refused_where_they_leave_a_choice_or_are_uneven() {
     assert!(matches!(refused(times(256.0).as_bytes(), &with(1.0 / 250.0)), RecordError::Contradiction { .. }));
     let gap: String =
         times(256.0).lines().enumerate().filter(|(row, _)| *row != 100).map(|(_, line)| format!("{line}\n")).collect();
-    assert!(matches!(refused(gap.as_bytes(), &with(1.0 / 256.0)), RecordError::Contradiction { .. }));
+    let error = refused(gap.as_bytes(), &with(1.0 / 256.0)).to_string();
+    assert!(
+        error.starts_with("line 101: time 0.395 s is 1.12 intervals") && error.contains("fill in what is missing"),
+        "{error}"
+    );
 }
 
 #[test]

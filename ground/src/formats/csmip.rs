@@ -218,13 +218,13 @@ fn interval(
     Ok(dt)
 }
 
-/// The unit after the last `in`: `.005 sec, in cm/sec2. (8f10.6)`.
+/// The unit after `units:` or the last `in`: `.005 sec, in cm/sec2. (8f10.6)`.
 fn unit_name(announced: &str) -> Option<&str> {
     let lower = announced.to_ascii_lowercase();
-    let at = lower.rfind(" in ").or_else(|| lower.rfind(",in "))?;
-    let rest = announced[at + " in ".len()..].trim_start();
+    let after = |word: &str| lower.rfind(word).map(|at| &announced[at + word.len()..]);
+    let rest = after("units:").or_else(|| after(" in ")).or_else(|| after(",in "))?.trim_start();
     let rest = rest.strip_prefix("units of").unwrap_or(rest).trim_start();
-    let name = rest.split(['(', ',', ';']).next().unwrap_or("").trim();
+    let name = rest.split(['(', ')', ',', ';']).next().unwrap_or("").trim();
     // A descriptor may follow without brackets: `in cm/sec2. 8F10.3`.
     let word = name.split_whitespace().next()?.trim_end_matches('.');
     Some(if AccelerationUnit::parse(word).is_some() { word } else { name })

@@ -60,6 +60,17 @@ impl Entry<'_> {
         }
     }
 
+    /// The warning that a file contradicts itself.
+    ///
+    /// # Errors
+    /// The same problem, unless the options are lenient.
+    pub fn leniently(&self, problem: String, options: &TextOptions) -> Result<String, RecordError> {
+        match options.lenient {
+            true => Ok(format!("line {}: {problem}", self.line)),
+            false => Err(self.wrong(problem)),
+        }
+    }
+
     fn contradiction(&self, key: &'static str, given: String, file: String) -> RecordError {
         RecordError::Contradiction { key, given, line: self.line, file }
     }

@@ -28,7 +28,9 @@ const TIMES: [&str; 7] = ["time", "times", "zeit", "uhrzeit", "temps", "tempo", 
 /// Whole names for time. Within longer names these words have other meanings.
 const SHORT_TIMES: [&str; 6] = ["t", "s", "sec", "secs", "second", "seconds"];
 /// Beginnings of words for acceleration.
-const ACCELERATIONS: [&str; 3] = ["acc", "acel", "beschl"];
+const ACCELERATIONS: [&str; 3] = ["accel", "acel", "beschl"];
+/// Short for acceleration; up to two characters may follow: `acc`, `accx`, `acc1`, but not `accumulated` or `accuracy`.
+const ACCELERATION: &str = "acc";
 /// Whole names for acceleration.
 const SHORT_ACCELERATIONS: [&str; 2] = ["a", "ag"];
 /// Beginnings of words for velocity, displacement and force.
@@ -43,10 +45,11 @@ impl Quantity {
         if words().any(|word| begins(word, &SPECTRAL) || ORDINATES.contains(&word)) {
             return Some(Quantity::Spectrum);
         }
+        let is_short = |word: &str| word.strip_prefix(ACCELERATION).is_some_and(|rest| rest.chars().count() <= 2);
         let is_count = words().any(|word| COUNTS.contains(&word));
         let said = words().find_map(|word| match word {
             _ if TIMES.contains(&word) => Some(Quantity::Time).filter(|_| !is_count),
-            _ if begins(word, &ACCELERATIONS) => Some(Quantity::Acceleration),
+            _ if begins(word, &ACCELERATIONS) || is_short(word) => Some(Quantity::Acceleration),
             _ if begins(word, &OTHERS) => Some(Quantity::Other),
             _ => None,
         });

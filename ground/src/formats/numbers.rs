@@ -52,6 +52,18 @@ pub struct Word<'t> {
     pub text: &'t str,
 }
 
+impl Word<'_> {
+    /// Column of the last character, from 1.
+    fn end(&self) -> usize {
+        self.column - 1 + self.text.chars().count()
+    }
+
+    /// Number of characters after the last point; `None` without a point.
+    fn after_point(&self) -> Option<usize> {
+        self.text.rsplit_once('.').map(|(_, after)| after.chars().count())
+    }
+}
+
 /// The words between separators.
 pub fn words(row: &str) -> impl Iterator<Item = Word<'_>> {
     let (mut rest, mut column) = (row, 1);
@@ -331,22 +343,25 @@ impl Block<'_> {
     }
 
     /// If the last row ends within a number: the line of that row, counted from 0, and the part of it with whole numbers. A row ends within a
-    /// number if it ends at another place of the columns than all numbers of the rows above, which end with a column or one character before.
+    /// number if it ends at another place of the columns than all numbers of the rows above, which end with a column or one character before, and
+    /// if the number has fewer characters after its point than each of those: numbers that stand at the left have no columns.
     fn cut(&self) -> Option<(usize, &str)> {
         let width = self.columns?.0;
         let after = self.span.1.min(self.lines.len());
         let mut rows = (self.span.0..after).rev().filter(|index| !self.lines[*index].trim().is_empty());
         let last = rows.next()?;
-        let above: Vec<usize> = rows.take(ROWS_ABOVE).flat_map(|index| ends(self.lines[index])).collect();
-        let place = above.first()? % width;
-        let in_columns = [0, width - 1].contains(&place) && above.iter().all(|end| end % width == place);
+        let above: Vec<Word> = rows.take(ROWS_ABOVE).flat_map(|index| words(self.lines[index])).collect();
+        let place = above.first()?.end() % width;
+        let in_columns = [0, width - 1].contains(&place) && above.iter().all(|word| word.end() % width == place);
         let row = self.lines[last];
-        let end = ends(row).last()?;
-        let is_number = words(row).last()?.text.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
-        if !in_columns || end % width == place || !is_number {
+        let number = words(row).last()?;
+        let is_number = number.text.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
+        let is_shorter =
+            above.iter().all(|word| word.after_point().is_none_or(|whole| number.after_point() < Some(whole)));
+        if !in_columns || number.end() % width == place || !is_number || !is_shorter {
             return None;
         }
-        let whole = end.checked_sub(place).map_or(0, |over| end - over % width);
+        let whole = number.end().checked_sub(place).map_or(0, |over| number.end() - over % width);
         let bytes = row.char_indices().nth(whole).map_or(row.len(), |(at, _)| at);
         Some((last, &row[..bytes]))
     }
@@ -354,11 +369,6 @@ impl Block<'_> {
 
 /// Number of rows above the last one whose columns are compared with its own.
 const ROWS_ABOVE: usize = 3;
-
-/// The columns in which the words of a row end.
-fn ends(row: &str) -> impl Iterator<Item = usize> {
-    words(row).map(|word| word.column - 1 + word.text.chars().count())
-}
 
 #[cfg(test)]
 mod tests {
@@ -411,6 +421,29 @@ mod tests {
         assert_eq!(split("é 1", 2), Err(RecordError::NotANumber { line: 2, column: 1, text: "é".into() }));
         let found: Vec<Word> = words("é; b").collect();
         assert_eq!(found, [Word { column: 1, text: "é" }, Word { column: 4, text: "b" }]);
+    }
+
+    #[test]
+    fn numbers_that_stand_at_the_left_have_no_columns() {
+        let whole = ["1.00000000e-03", "2.00000000e-03", "3.00000000e-03", "1.00000000e-03", "-1.00000000e-03"];
+        let read = |lines: &[&str], declared: usize| {
+            let columns = Some(FixedWidth(15));
+            let span = (0, lines.len());
+            Block { lines, span, declared: Some(declared), header: (1, "NPTS"), columns, lenient: false }.read()
+        };
+        let samples = read(&whole, 5).expect("all numbers are there");
+        assert_eq!((samples.values[4], samples.cut), (-0.001, false));
+        // The other way round: 14 characters below rows of 15.
+        let negative: Vec<String> = whole.iter().map(|row| format!("-{}", row.trim_start_matches('-'))).collect();
+        let mut lines: Vec<&str> = negative.iter().map(String::as_str).collect();
+        lines.push("1.00000000e-03");
+        assert_eq!(read(&lines, 6).expect("all numbers are there").values[5], 0.001);
+        // A number that is cut off is shorter behind its point.
+        for cut in ["-1.00000000e-0", "-1.00000000e", "-1.0"] {
+            lines[5] = cut;
+            let found = read(&lines, 6);
+            assert!(matches!(found, Err(RecordError::Fewer { declared: 6, found: 5, .. })), "{cut}: {found:?}");
+        }
     }
 
     #[test]

@@ -21,6 +21,7 @@ use super::table;
 use crate::error::RecordError;
 use crate::options::TextOptions;
 use crate::unit::AccelerationUnit;
+use std::iter;
 
 /// Columns of a row, used if blanks do not separate the numbers.
 const COLUMNS: FixedWidth = FixedWidth(15);
@@ -60,9 +61,17 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let dt = entry.interval(Some(dt), options)?;
     let first = first_row(lines, header);
     let mut warnings = Vec::new();
-    let unit = match unit(&lines[..header], options)? {
-        Some(unit) => unit,
-        None => unit_in_text(&lines[..first], options, &mut warnings)?,
+    let text = lines[..first].iter().enumerate().map(|(index, line)| (index + 1, *line));
+    let (own, stated) = (unit(&lines[..header], options)?, statement::units(text));
+    let unit = match own {
+        Some((line, unit)) => {
+            // Other units in the line of the unit are of other quantities, such as a peak.
+            let others = stated.into_iter().filter(|(other, _)| *other != line);
+            let all: Vec<_> = iter::once((line, unit)).chain(others).collect();
+            statement::one_unit(&all, options, &mut warnings)?;
+            unit
+        }
+        None => unit_in_text(&stated, lines, options, &mut warnings)?,
     };
     let (span, header_entry) = ((first, lines.len()), (entry.line, "NPTS"));
     let block = Block { lines, span, declared, header: header_entry, columns: Some(COLUMNS), lenient: options.lenient };
@@ -75,14 +84,14 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
 
 /// The unit that a header states in other places than its own, else that of `options`, else g.
 fn unit_in_text(
-    header: &[&str],
+    stated: &[(usize, AccelerationUnit)],
+    lines: &[&str],
     options: &TextOptions,
     warnings: &mut Vec<String>,
 ) -> Result<AccelerationUnit, RecordError> {
-    let text = header.iter().enumerate().map(|(index, line)| (index + 1, *line));
     let remedy = "write `ACCELERATION TIME SERIES IN UNITS OF G` above the line with NPTS";
-    match (statement::unit(text), options.units) {
-        (Some((line, unit)), _) => Entry { line, text: header[line - 1], remedy }.agreed(unit, options),
+    match (statement::one_unit(stated, options, warnings)?, options.units) {
+        (Some((line, unit)), _) => Entry { line, text: lines[line - 1], remedy }.agreed(unit, options),
         (None, Some(own)) => Ok(own),
         (None, None) => {
             warnings.push("the header states no unit: g is taken (give another one with `units`)".into());
@@ -105,8 +114,8 @@ fn count_and_interval(line: &str) -> (Option<f64>, Option<f64>) {
     }
 }
 
-/// The unit that the lines above the header name, nearest line first: `... IN UNITS OF G`, `... TIME HISTORY (G'S): ...`.
-fn unit(above: &[&str], options: &TextOptions) -> Result<Option<AccelerationUnit>, RecordError> {
+/// Line, from 1, and unit that the lines above the header name, nearest line first: `... IN UNITS OF G`, `... TIME HISTORY (G'S): ...`.
+fn unit(above: &[&str], options: &TextOptions) -> Result<Option<(usize, AccelerationUnit)>, RecordError> {
     for (index, text) in above.iter().enumerate().rev() {
         let entry = |remedy: &'static str| Entry { line: index + 1, text, remedy };
         let upper = tidy(text).to_ascii_uppercase().replace("UNITS=", "UNITS =");
@@ -131,8 +140,9 @@ fn unit(above: &[&str], options: &TextOptions) -> Result<Option<AccelerationUnit
             // `(G'S)`, or `... IN CM/S/S`.
             None => {
                 let bracket = upper.split_once(['(', '[']).and_then(|(_, rest)| rest.split([')', ']']).next());
-                let last = upper.rsplit_once(" IN ").and_then(|(_, rest)| rest.split([' ', ',', ';', ':']).next());
-                bracket.filter(|name| AccelerationUnit::parse(name).is_some()).or(last)
+                let is_unit = |name: &&str| AccelerationUnit::parse(name.trim_end_matches('.')).is_some();
+                let named = upper.split(" IN ").skip(1).filter_map(|rest| rest.split([' ', ',', ';', ':']).next());
+                bracket.filter(is_unit).or_else(|| named.clone().find(is_unit)).or_else(|| named.last())
             }
         };
         let Some(name) = name.map(|name| name.trim().trim_end_matches('.').trim_matches(['(', ')', '[', ']'])) else {
@@ -141,7 +151,7 @@ fn unit(above: &[&str], options: &TextOptions) -> Result<Option<AccelerationUnit
         // Brackets and sentences may hold anything; what follows `UNITS OF` is a unit.
         if after_units.is_some() || AccelerationUnit::parse(name).is_some() {
             let remedy = "convert the record to g, m/s/s or cm/s/s and name that unit";
-            return entry(remedy).unit(name, options).map(Some);
+            return Ok(Some((index + 1, entry(remedy).unit(name, options)?)));
         }
     }
     Ok(None)

@@ -1,8 +1,10 @@
 //! What the free text of a header states: the number of samples, their interval and their unit.
 
-use super::header::{leading_number, place_after};
+use super::header::{Entry, leading_number, place_after};
 use super::heading::second;
 use super::numbers::number;
+use crate::error::RecordError;
+use crate::options::TextOptions;
 use crate::unit::AccelerationUnit;
 
 /// Lines among which the line with the number of samples is sought.
@@ -32,7 +34,7 @@ pub fn interval(line: &str) -> Option<f64> {
 
 /// The units of acceleration that a line states: in brackets, after `in` or `units`, or by a name that is nothing but a unit (`cm/s2`). A unit beside
 /// a number belongs to that number: `peak 350 cm/s2`.
-fn units(line: &str) -> Vec<AccelerationUnit> {
+fn units_of(line: &str) -> Vec<AccelerationUnit> {
     let is_end = |c: char| c.is_whitespace() || ",;:=\"'".contains(c);
     let words: Vec<&str> = line.split(is_end).filter(|word| !word.is_empty()).collect();
     let is_number = |place: usize| words.get(place).is_some_and(|word| number(word).is_some());
@@ -48,11 +50,27 @@ fn units(line: &str) -> Vec<AccelerationUnit> {
     (0..words.len()).filter_map(stated).collect()
 }
 
-/// The unit that the lines state, with the number of the line, from 1. `None` if they state several.
-pub fn unit<'t>(lines: impl Iterator<Item = (usize, &'t str)>) -> Option<(usize, AccelerationUnit)> {
-    let mut stated = lines.flat_map(|(line, text)| units(text).into_iter().map(move |unit| (line, unit)));
-    let (line, unit) = stated.next()?;
-    stated.all(|(_, other)| other == unit).then_some((line, unit))
+/// The units that lines state, each with the number of its line, from 1.
+pub fn units<'t>(lines: impl Iterator<Item = (usize, &'t str)>) -> Vec<(usize, AccelerationUnit)> {
+    lines.flat_map(|(line, text)| units_of(text).into_iter().map(move |unit| (line, unit))).collect()
+}
+
+/// The first of the units that a header states.
+///
+/// # Errors
+/// [`RecordError::Header`] if another one differs; with lenient options that is a warning.
+pub fn one_unit(
+    stated: &[(usize, AccelerationUnit)],
+    options: &TextOptions,
+    warnings: &mut Vec<String>,
+) -> Result<Option<(usize, AccelerationUnit)>, RecordError> {
+    let Some(&(first, unit)) = stated.first() else { return Ok(None) };
+    if let Some((line, other)) = stated.iter().find(|(_, other)| *other != unit) {
+        let problem = format!("the unit {other} is stated, and {unit} in line {first}");
+        let remedy = "mend the wrong one, or take the first with `lenient`";
+        warnings.push(Entry { line: *line, text: "", remedy }.leniently(problem, options)?);
+    }
+    Ok(Some((first, unit)))
 }
 
 #[cfg(test)]
@@ -79,7 +97,7 @@ mod tests {
 
     #[test]
     fn units_are_those_of_the_samples() {
-        let of = |text: &'static str| unit([(1, text)].into_iter()).map(|(_, unit)| unit.to_string());
+        let of = |text: &'static str| units([(1, text)].into_iter()).first().map(|(_, unit)| unit.to_string());
         for (text, unit) in [
             ("units m/s2", "m/s²"),
             ("Acceleration in m/s2", "m/s²"),
@@ -91,7 +109,7 @@ mod tests {
         ] {
             assert_eq!(of(text).as_deref(), Some(unit), "{text}");
         }
-        for text in ["station G", "peak 350 cm/s2", "PGA (g): 0.3", "from cm/s2 in g", "velocity in m/s", ""] {
+        for text in ["station G", "peak 350 cm/s2", "PGA (g): 0.3", "velocity in m/s", ""] {
             assert_eq!(of(text), None, "{text}");
         }
     }

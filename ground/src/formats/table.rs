@@ -43,8 +43,8 @@ struct Rows {
     values: Vec<f64>,
     /// Number of columns.
     columns: usize,
-    /// Line, from 1, and unit that the text above the numbers states, the headings excepted.
-    stated_unit: Option<(usize, AccelerationUnit)>,
+    /// Lines, from 1, and units that the text above the numbers states, the headings excepted.
+    stated_units: Vec<(usize, AccelerationUnit)>,
     /// Lines, from 1, and sampling intervals `[s]` that the text above the numbers states.
     stated_intervals: Vec<(usize, f64)>,
 }
@@ -157,23 +157,21 @@ fn unit(
             entry.wrong(format!("`{unit}` of column `{name}` is no unit of acceleration that is known"))
         };
         let unit = entry.agreed(heading.acceleration().ok_or_else(unknown)?, options)?;
-        if let Some((line, stated)) = rows.stated_unit.filter(|(_, stated)| *stated != unit) {
+        if let Some((line, stated)) = rows.stated_units.iter().find(|(_, stated)| *stated != unit) {
             let problem = format!("column `{}` is in {unit}, and line {line} states {stated}", brief(&heading.name));
             let remedy = "mend the wrong one, or take that of the column with `lenient`";
-            warnings.push(leniently(Entry { remedy, ..entry }, problem, options)?);
+            warnings.push(Entry { remedy, ..entry }.leniently(problem, options)?);
         }
         return Ok(unit);
     }
-    match (options.units, rows.stated_unit) {
-        (Some(own), Some((line, stated))) if own != stated => {
-            warnings
-                .push(format!("line {line} states the unit {stated}, and `units` is given as {own}, which is taken"));
-            Ok(own)
-        }
-        (own, stated) => {
-            own.or(stated.map(|(_, unit)| unit)).ok_or(RecordError::Missing { quantity: "unit", key: "units" })
-        }
+    let Some(own) = options.units else {
+        let stated = statement::one_unit(&rows.stated_units, options, warnings)?;
+        return Ok(stated.ok_or(RecordError::Missing { quantity: "unit", key: "units" })?.1);
+    };
+    if let Some((line, stated)) = rows.stated_units.iter().find(|(_, stated)| *stated != own) {
+        warnings.push(format!("line {line} states the unit {stated}, and `units` is given as {own}, which is taken"));
     }
+    Ok(own)
 }
 
 /// The first time `[s]`, if there is a column of times, and the sampling interval `[s]`: that of the column of times, else that of `options`, else the one that
@@ -195,7 +193,7 @@ fn begin_and_interval(
             if let Some(((first, dt), (line, other))) = stated.filter(|_| options.dt.is_none()).and_then(other) {
                 let problem = format!("a sampling interval of {other} s is stated, and one of {dt} s in line {first}");
                 let remedy = "mend the wrong one, give `dt`, or take the first with `lenient`";
-                warnings.push(leniently(Entry { line, text: "", remedy }, problem, options)?);
+                warnings.push(Entry { line, text: "", remedy }.leniently(problem, options)?);
             }
             (None, given.ok_or(RecordError::Missing { quantity: "sampling interval", key: "dt" })?)
         }
@@ -217,16 +215,8 @@ fn begin_and_interval(
     Ok((begins, dt))
 }
 
-/// The warning that a file contradicts itself.
-///
-/// # Errors
-/// The same problem, unless the options are lenient.
-fn leniently(entry: Entry, problem: String, options: &TextOptions) -> Result<String, RecordError> {
-    match options.lenient {
-        true => Ok(format!("line {}: {problem}", entry.line)),
-        false => Err(entry.wrong(problem)),
-    }
-}
+/// Number of given intervals by which the last of times with few digits is off at most.
+const COARSE: f64 = 2.0;
 
 /// Relative difference of stated intervals that are the same.
 const EXACT_INTERVAL: f64 = 1e-9;
@@ -268,7 +258,7 @@ fn rows(lines: &[&str], options: &TextOptions) -> Result<Rows, RecordError> {
         .or_else(|| remark_with_headings(lines, header.clone(), rows.columns))
         .unwrap_or_default();
     let text = || header.clone().map(|index| (index + 1, lines[index]));
-    rows.stated_unit = statement::unit(text().filter(|(line, _)| *line != rows.headings.0));
+    rows.stated_units = statement::units(text().filter(|(line, _)| *line != rows.headings.0));
     rows.stated_intervals = text().filter_map(|(line, text)| Some((line, statement::interval(text)?))).collect();
     Ok(rows)
 }
@@ -296,7 +286,7 @@ fn numbers(body: &[(usize, &str)], names: usize) -> Result<Rows, RecordError> {
         lines: Vec::new(),
         values: Vec::new(),
         columns: 0,
-        stated_unit: None,
+        stated_units: Vec::new(),
         stated_intervals: Vec::new(),
     };
     for (line, text) in body {
@@ -499,6 +489,15 @@ fn interval(rows: &Rows, time: usize, second: f64, options: &TextOptions) -> Res
             None => Ok(own),
             // The interval is right, and some times are not.
             Some(row) if is_mean => Err(uneven(rows, row, at)),
+            // Without `dt` the times are refused as well: they have too few digits.
+            Some(row)
+                if (own - dt).abs() * last as f64 <= COARSE * own && off_grid(dt, GRID_TOLERANCE * dt).is_some() =>
+            {
+                let off = (at(row) - at(0) - row as f64 * own).abs() / own;
+                let problem = format!("time {} s is {off:.2} intervals of {own} s off its place", at(row));
+                let remedy = "fill in what is missing above; or, where nothing is missing and times have too few digits, remove the column of times";
+                Err(Entry { line: rows.lines[row], text: "", remedy }.wrong(problem))
+            }
             Some(_) => {
                 let (given, file) = (format!("{own} s"), format!("{dt} s"));
                 Err(RecordError::Contradiction { key: "dt", given, line: rows.lines[last], file })
