@@ -54,7 +54,7 @@ impl<'a> Run<'a> {
         let Run { scene, response, .. } = *self;
         let components = [("horizontal", &scene.excitation.horizontal), ("vertical", &scene.excitation.vertical)];
         let peak = |motion: &Option<Motion>| {
-            let peaks = motion.as_ref().map(|motion| motion.peaks(scene.options.t_end));
+            let peaks = motion.as_ref().map(|motion| motion.peaks(0.0, scene.options.t_end));
             peaks.map_or(0.0, |[acceleration, ..]| acceleration)
         };
         let stacks = |quantity: fn(&Stack) -> f64| -> Vec<f64> {

@@ -429,7 +429,10 @@ impl Sweep {
             peaks: if with_peaks { response.peaks(&scene.column) } else { Vec::new() },
             last_mode: with_peaks.then(last_mode),
             needs: match &response.validity {
-                Some(validity) if self.ask == Ask::Validity => Some(Needs::of(&scene.column, validity)),
+                // Of a column that falls from the start no contact counts.
+                Some(validity) if self.ask == Ask::Validity && validity.until > 0.0 => {
+                    Some(Needs::of(&scene.column, validity))
+                }
                 _ => None,
             },
             residual_slides: match &response.sliding {

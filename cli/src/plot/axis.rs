@@ -104,13 +104,17 @@ pub fn number(value: f64, step: f64) -> String {
     let text = if is_plain(value, step) {
         format!("{:.*}", usize::try_from(-power).unwrap_or(0), value.abs())
     } else {
-        let digits = usize::try_from(value.abs().log10().floor() as i32 - power).unwrap_or(0);
-        let text = format!("{:.digits$e}", value.abs());
-        let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
-        let digits = if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { digits };
-        format!("{digits}×10{}", superscript(power))
+        scientific(value.abs(), usize::try_from(value.abs().log10().floor() as i32 - power).unwrap_or(0))
     };
     format!("{}{text}", if value < 0.0 { "−" } else { "" })
+}
+
+/// A number above zero with a power of ten, and up to so many digits behind the point: `1.46×10⁶`.
+fn scientific(value: f64, digits: usize) -> String {
+    let text = format!("{value:.digits$e}");
+    let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
+    let digits = if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { digits };
+    format!("{digits}×10{}", superscript(power))
 }
 
 /// Whether a number is written without a power of ten.
@@ -140,20 +144,20 @@ pub fn subscript(number: usize) -> String {
     number.to_string().chars().map(lowered).collect()
 }
 
-/// A number in a text, with a true minus. From 1e-3 to 1e6: three significant digits without trailing decimal zeros, and all digits
-/// before the point. Beyond: one significant digit.
+/// A number in a text, with a true minus: three significant digits without trailing decimal zeros, and from 1e-3 to 1e5 all digits before the
+/// point.
 pub fn brief(value: f64) -> String {
     let size = value.abs();
-    if size == 0.0 {
+    let text = if size == 0.0 {
         "0".into()
     } else if (1e-3..1e5).contains(&size) {
         let decimals = (2 - size.log10().floor() as i32).clamp(0, 5) as usize;
         let text = format!("{size:.decimals$}");
-        let text = if decimals > 0 { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
-        format!("{}{text}", if value < 0.0 { "−" } else { "" })
+        if decimals > 0 { text.trim_end_matches('0').trim_end_matches('.').into() } else { text }
     } else {
-        number(value, 10f64.powf(size.log10().floor()))
-    }
+        scientific(size, 2)
+    };
+    format!("{}{text}", if value < 0.0 { "−" } else { "" })
 }
 
 #[cfg(test)]

@@ -180,6 +180,7 @@ fn knots<'a>(samples: &'a [Sample], events: &'a [Event]) -> Vec<Knot<'a>> {
             knots.push(Knot { t: sample.t, theta: &sample.theta, before, after: None, blocks });
         }
     }
+    knots.extend(events.map(at_event));
     knots
 }
 

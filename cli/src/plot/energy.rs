@@ -74,7 +74,7 @@ fn caption(motion: &DrawnRun, largest: f64) -> String {
             " Of prisms with a density and no depth, masses are per metre of thickness, and so is the energy.",
         );
     }
-    if motion.overturned() {
+    if motion.falls_at().is_some() {
         caption.push_str(" Curves leave the panel where the column falls.");
     } else {
         caption.push_str(&format!(" Largest: {} J.", brief(largest)));

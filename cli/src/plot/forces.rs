@@ -91,8 +91,10 @@ fn contacts(motion: &DrawnRun) -> Vec<Contact> {
     let empty = || Contact { normal: Vec::new(), demand: vec![Vec::new()] };
     let mut contacts: Vec<Contact> = weights.iter().map(|_| empty()).collect();
     let until = counted_until(motion).unwrap_or(f64::INFINITY);
-    let upright = if motion.overturned() { motion.samples.len() - 1 } else { motion.samples.len() };
-    for sample in &motion.samples[..upright.max(1)] {
+    // The first row after the end, if it is there, holds the column as it was at the end, fallen.
+    let end = motion.results.response.t_final;
+    let upright = motion.samples.iter().filter(|sample| !motion.overturned() || sample.t < end);
+    for sample in upright {
         for ((contact, force), weight) in contacts.iter_mut().zip(sample.contact_forces(column)).zip(&weights) {
             contact.normal.push([sample.t, force.normal / weight]);
             if sample.t > until {
@@ -135,6 +137,7 @@ fn largest_demands(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, top: f64
         let what = match (normal.is_finite(), demand.is_finite()) {
             (true, true) => brief(*demand),
             (true, false) => "no friction is enough".into(),
+            (false, _) if counted_until(motion) == Some(0.0) => "–".into(),
             (false, _) => "never closed".into(),
         };
         entries.push((Key::Line(style::line(interface)), format!("interface {}: {what}", interface + 1)));

@@ -124,7 +124,7 @@ fn mode(sheet: &mut Sheet, Drawing { label, pattern, blocks }: &Drawing, origin:
         sheet.shape(left.chain(right).map(place).collect(), fill, &EDGE);
         members[1..].iter().for_each(|block| sheet.line(place(block.corners[0]), place(block.corners[1]), &JOINT));
     }
-    blocks.iter().filter_map(|block| block.pivot).for_each(|pivot| sheet.dot(place(pivot)));
+    blocks.iter().filter_map(|block| block.pivot).for_each(|pivot| sheet.dot(place(pivot), style::INK));
     sheet.bold_words([x, y + 23.0], &label.to_string(), LARGE, Anchor::Middle);
     // Typeset: the minus is as wide as the plus.
     sheet.words([x, y + 37.0], &pattern.to_string().replace('-', "\u{2212}"), SMALL, Anchor::Middle);
@@ -145,7 +145,7 @@ fn legend(sheet: &mut Sheet, [x, top]: Point, blocks: usize, tilt_deg: f64) {
         sheet.shape(corners(&Frame { left: x, top: y - 10.0, width: 18.0, height: 10.0 }), fill(group), &EDGE);
     }
     let y = entry(sheet, 26.0, "pivot of an open interface");
-    sheet.dot([x + 9.0, y - 4.0]);
+    sheet.dot([x + 9.0, y - 4.0], style::INK);
     if blocks > 1 {
         let y = entry(sheet, 26.0, "closed interface");
         sheet.line([x, y - 4.0], [x + 18.0, y - 4.0], &JOINT);

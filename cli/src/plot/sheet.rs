@@ -178,7 +178,9 @@ impl Sheet {
         let mut scene = Scene::new(self.width, frame.bottom());
         add_axes_and_grid(&mut scene, &ComputedLayout::from_layout(&layout), &layout);
         let unlabelled = |drawn: &Primitive| matches!(drawn, Primitive::Text { content, .. } if content.is_empty());
-        self.drawn.extend(scene.elements.into_iter().filter(|drawn| !unlabelled(drawn)));
+        let width = self.width;
+        self.drawn
+            .extend(scene.elements.into_iter().filter(|drawn| !unlabelled(drawn)).map(|drawn| inside(drawn, width)));
     }
 
     /// The label of the upward axis, left of the numbers of the leftmost panel.
@@ -259,12 +261,12 @@ impl Sheet {
     }
 
     /// A pivot: a dark dot in a light ring.
-    pub fn dot(&mut self, [x, y]: Point) {
+    pub fn dot(&mut self, [x, y]: Point, color: &str) {
         self.drawn.push(Primitive::Circle {
             cx: tidy(x),
             cy: tidy(y),
             r: 2.8,
-            fill: style::INK.into(),
+            fill: color.into(),
             fill_opacity: None,
             stroke: Some(style::REST_FILL.into()),
             stroke_width: Some(0.8),
@@ -430,6 +432,17 @@ impl Sheet {
         scene.elements.extend(self.drawn.iter().cloned());
         scene.add(Primitive::GroupEnd);
         scene
+    }
+}
+
+/// A number at a tick, moved to the left as far as it reaches beyond the sheet.
+fn inside(drawn: Primitive, width: f64) -> Primitive {
+    match drawn {
+        Primitive::Text { x, y, content, size, anchor: Anchor::Middle, rotate: None, bold, color } => {
+            let x = x.min(width - 1.0 - 0.5 * text_width(&content, size));
+            Primitive::Text { x, y, content, size, anchor: Anchor::Middle, rotate: None, bold, color }
+        }
+        other => other,
     }
 }
 

@@ -81,7 +81,7 @@ fn state(sheet: &mut Sheet, joint: Joint, [x, y]: Point) {
     };
     sheet.shape([[-UPPER, 0.0], [-UPPER, HEIGHT], [UPPER, HEIGHT], [UPPER, 0.0]].map(turned).into(), fill(1), &EDGE);
     if pivot != 0.0 {
-        sheet.dot(turned([pivot, 0.0]));
+        sheet.dot(turned([pivot, 0.0]), style::INK);
     }
     if slide != 0.0 {
         let sign = slide.signum();

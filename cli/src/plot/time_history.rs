@@ -3,7 +3,7 @@
 use super::axis::{Axis, brief, span, subscript};
 use super::band;
 use super::curve::{Frame, Point};
-use super::drawn_run::{DrawnRun, FALL, Stretch, output_times, over_time};
+use super::drawn_run::{DrawnRun, FALL, Knot, Stretch, output_times, over_time};
 use super::modes::rest;
 use super::paper::Angles;
 use super::sheet::{self, Anchor, Figure, Key, Panel, Sheet, corners};
@@ -323,7 +323,10 @@ fn caption(motion: &DrawnRun) -> String {
         caption.push_str(&format!(" Curves leave the panel where the column falls, at {FALL} α."));
     }
     if balance(motion).is_some() && (low <= -1.0 || high >= 1.0) {
-        caption.push_str(" Dashed: θ = ±α, beyond which a rigid stack at rest would fall.");
+        let column = &motion.results.column;
+        let is_symmetric = (0..column.len()).all(|interface| column.centroid_offset(interface) == 0.0);
+        let side = if is_symmetric { "" } else { " to its weaker side" };
+        caption.push_str(&format!(" Dashed: θ = ±α, beyond which a rigid stack at rest would fall{side}."));
     }
     if let Some((t, words)) = motion.ending() {
         caption.push_str(&match motion.results.response.status {
@@ -333,7 +336,8 @@ fn caption(motion: &DrawnRun) -> String {
         });
     }
     caption.push_str(&band::caption(motion));
-    if motion.results.response.events.is_empty() {
+    let is_still = |knot: &Knot| knot.theta.iter().chain(knot.before.0).all(|value| *value == 0.0);
+    if response.events.is_empty() && motion.knots.iter().all(is_still) {
         caption.push_str(" Nothing sets the column in motion.");
     } else {
         caption.push_str(&format!(" {}.", counted(response.impacts, ["impact", "impacts"])));

@@ -87,9 +87,10 @@ fn restitution(law: &Restitution, housner: f64) -> String {
     }
 }
 
-/// Initial angles, rates and slides, and places and velocities where a block flies, from the first row. `None` if all are zero.
+/// Initial angles, rates and slides, and places and velocities where a block flies, from the row at the start. `None` if all are zero, or rows begin
+/// later.
 fn initial(results: &Results) -> Option<String> {
-    let first = results.response.samples.first()?;
+    let first = results.response.samples.first().filter(|first| first.t == 0.0)?;
     let flies = first.gap.iter().any(|gap| *gap != 0.0);
     let of_blocks =
         |value: fn(&BlockState) -> f64| first.blocks.iter().filter(|_| flies).map(value).collect::<Vec<_>>();

@@ -25,8 +25,8 @@ enum Verdict {
     Noted(String, Vec<String>),
     /// The model does not hold, for these reasons.
     Fails(Vec<String>),
-    /// Contact forces were not recorded.
-    Unknown,
+    /// Nothing is known of the contacts, for this reason.
+    Unknown(&'static str),
 }
 
 /// Interface, from 0, with the largest friction demand, and this demand; infinite if no coefficient is enough. `None` without recorded forces.
@@ -106,6 +106,9 @@ fn judge(results: &Results) -> Verdict {
     if let Some(report) = &response.sliding {
         return judge_sliding(results, report);
     }
+    if response.validity.as_ref().is_some_and(|validity| validity.until <= 0.0) {
+        return Verdict::Unknown("the column falls from the start, and contacts count up to the point of no return");
+    }
     let mut reasons = Vec::new();
     let (count, first) = match &response.validity {
         Some(validity) => (validity.separations, validity.first_separation),
@@ -125,7 +128,11 @@ fn judge(results: &Results) -> Verdict {
         reasons.push(format!("{} would have to pull: the blocks would part", named(&parted)));
     }
     let Some((worst, demand)) = largest_demand(results) else {
-        return if reasons.is_empty() { Verdict::Unknown } else { Verdict::Fails(reasons) };
+        return if reasons.is_empty() {
+            Verdict::Unknown("contact forces were not recorded")
+        } else {
+            Verdict::Fails(reasons)
+        };
     };
     let demands = friction_demand.iter().copied().enumerate();
     let beyond = |available: f64| demands.clone().filter(|(_, demand)| *demand > available).map(|(at, _)| at).collect();
@@ -192,11 +199,9 @@ pub fn verdict(results: &Results) -> String {
             let reasons: String = reasons.iter().map(|reason| format!("<li>{reason}</li>")).collect();
             ("fails", "!", format!("<p><strong>The model does not hold for this run</strong>:</p><ul>{reasons}</ul>"))
         }
-        Verdict::Unknown => (
-            "conditional",
-            "?",
-            "<p><strong>Whether the model holds is not known</strong>: contact forces were not recorded.</p>".into(),
-        ),
+        Verdict::Unknown(why) => {
+            ("conditional", "?", format!("<p><strong>Whether the model holds is not known</strong>: {why}.</p>"))
+        }
     };
     format!(
         "<div class=\"verdict {class}\"><span class=\"sign\" aria-hidden=\"true\">{sign}</span><div>{words}</div></div>\n"

@@ -72,6 +72,29 @@ pub fn touching(column: &Column, resolution: Resolution, now: &Configuration) ->
     (0..now.joints.len()).map(touch).collect()
 }
 
+/// A corner of a free interface that is at the other block's face, to rounding, and approaches it. `None` if there is no such corner, or the interface is
+/// not free.
+pub fn landing_corner(
+    column: &Column,
+    resolution: Resolution,
+    now: &Configuration,
+    interface: usize,
+) -> Option<Corner> {
+    if now.joints[interface] != Joint::Free {
+        return None;
+    }
+    let (chain, rates) = (Chain::new(column, now), Rates::of(now));
+    let approaches = |corner: &Corner| gaps::slide_and_gap_rates(&chain, &rates, *corner)[1] < -resolution.speed;
+    [1, -1].into_iter().find_map(|side| close_corners(resolution, &chain, interface, side).find(approaches))
+}
+
+/// Whether an interface that is open at a corner is closed, to rounding, and closes.
+pub fn is_closing(resolution: Resolution, now: &Configuration, interface: usize) -> bool {
+    let Joint::Corner(side, ..) = now.joints[interface] else { return false };
+    let rate = f64::from(side) * now.relative_rate(interface);
+    now.relative_angle(interface).abs() <= resolution.angle && rate < -resolution.rate
+}
+
 /// The side on which a tilted block above the lowest one stands, if it stands. Where its corner meets the corner of the other side of the block below, one of
 /// the two is on the end of the other block's face: the one on this side. `None` for faces that lie on each other, and on the ground.
 pub fn leaning_side(resolution: Resolution, now: &Configuration, interface: usize) -> Option<Sign> {

@@ -28,20 +28,14 @@ impl PendingTransition<'_> {
         }
         let mut touch = self.touching();
         touch[interface] = Touch::Faces;
-        self.lay_angles(&touch);
-        self.stop = self.strike(&touch, EventKind::Impact, &[interface]).err();
+        self.strike_together(touch, EventKind::Impact, interface);
     }
 
     /// A free interface lands with a corner.
     pub fn land(&mut self, corner: Corner) {
-        let corner = match contacts::leaning_side(self.resolution, &self.now, corner.interface) {
-            // The corner of the other side, on the end of this one's face.
-            Some(side) if side != corner.side => corner.opposite(),
-            _ => corner,
-        };
-        let Corner { interface, side, .. } = corner;
-        let chain = Chain::new(self.column(), &self.now);
-        let [_, above] = gaps::corner_position(&chain, corner);
+        let corner = self.leaning(corner);
+        let Corner { interface, .. } = corner;
+        let [_, above] = gaps::corner_position(&Chain::new(self.column(), &self.now), corner);
         // Depths of lower hops than are followed are none.
         let depth = DEPTH_SHARE.max(self.resolution.lowest_hop);
         if above < -depth * self.resolution.size {
@@ -51,14 +45,48 @@ impl PendingTransition<'_> {
             self.stop = Some(RunEnd::Collapsed(interface));
             return;
         }
+        let mut touch = self.touching();
+        touch[interface] = self.lay_down(corner);
+        self.strike_together(touch, EventKind::Landing, interface);
+    }
+
+    /// The corner that lands: where corners of opposite sides meet, that of the side to which the upper block leans.
+    fn leaning(&self, corner: Corner) -> Corner {
+        match contacts::leaning_side(self.resolution, &self.now, corner.interface) {
+            // The corner of the other side, on the end of this one's face.
+            Some(side) if side != corner.side => corner.opposite(),
+            _ => corner,
+        }
+    }
+
+    /// What a corner that lands touches with; its interface gets the slide with which it lands.
+    fn lay_down(&mut self, corner: Corner) -> Touch {
+        let Corner { interface, side, .. } = corner;
+        let chain = Chain::new(self.column(), &self.now);
         let [beside, other_above] = gaps::corner_position(&chain, Corner { side: -side, ..corner });
         let is_flat = self.now.relative_angle(interface).abs() <= self.resolution.angle
             || beside <= 0.0 && other_above.abs() <= self.resolution.gap;
         self.now.slide[interface] = gaps::slide_of_landing(&chain, corner);
-        let mut touch = self.touching();
-        touch[interface] = if is_flat { Touch::Faces } else { Touch::Corner(side) };
+        if is_flat { Touch::Faces } else { Touch::Corner(side) }
+    }
+
+    /// The impact of an interface that closes or lands, and of all others that do so in the same instant, to rounding: they are one problem.
+    fn strike_together(&mut self, mut touch: Vec<Touch>, kind: EventKind, first: usize) {
+        let mut closing = vec![first];
+        for interface in (0..touch.len()).filter(|interface| *interface != first) {
+            if contacts::is_closing(self.resolution, &self.now, interface) {
+                touch[interface] = Touch::Faces;
+            } else if let Some(corner) = contacts::landing_corner(self.column(), self.resolution, &self.now, interface)
+            {
+                touch[interface] = self.lay_down(self.leaning(corner));
+            } else {
+                continue;
+            }
+            closing.push(interface);
+        }
+        closing.sort_unstable();
         self.lay_angles(&touch);
-        self.stop = self.strike(&touch, EventKind::Landing, &[interface]).err();
+        self.stop = self.strike(&touch, kind, &closing).err();
     }
 
     /// Gives blocks whose faces touch one angle to the last bit: a gap of rounding would be on one side, and open to the other.

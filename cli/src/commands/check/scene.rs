@@ -419,7 +419,7 @@ impl Findings {
 
 impl MotionFindings {
     fn of(motion: &Motion, t_end: f64) -> MotionFindings {
-        let [pga, pgv, pgd] = motion.peaks(t_end);
+        let [pga, pgv, pgd] = motion.peaks(0.0, t_end);
         let end = motion.end();
         MotionFindings { motion: motion.clone(), pga, pgv, pgd, end, left_with: end.map(|end| motion.travel(end)) }
     }

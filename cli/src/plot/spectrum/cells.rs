@@ -1,7 +1,7 @@
 //! Cells of outcomes: their fills and names, how they are painted, and their legend.
 
 use super::class::Class;
-use super::grid::Grid;
+use super::grid::share;
 use super::outline::layers;
 use super::place::Place;
 use crate::plot::curve::{self, Frame};
@@ -45,13 +45,13 @@ impl Class {
     }
 }
 
-/// Legend entries: each class that occurs, with its share of all cells. Classes that are lost come last, the most violent first.
+/// Legend entries: each class that occurs, with its share of the panels by the areas of their cells. Classes that are lost come last, the most violent first.
 /// The line `least` of the lowest value that is lost, if given with what the columns do there, comes just before these classes. The first class that
 /// overturns says so.
-pub fn legend(panels: &[Vec<Class>], least: Option<(Stroke, &str)>) -> Vec<(Key, String)> {
-    let shown = |class: &Class| Grid::share(panels, |found| found == *class) > 0.0;
+pub fn legend(panels: &[Vec<Class>], areas: &[f64], least: Option<(Stroke, &str)>) -> Vec<(Key, String)> {
+    let shown = |class: &Class| panels.iter().flatten().any(|found| found == class);
     let entry = |class: Class| {
-        let share = percent(Grid::share(panels, |found| found == class));
+        let share = percent(share(panels, areas, |found| found == class));
         (Key::Fill(class.fill()), format!("{}, {share}", class.name()))
     };
     let (lost, others): (Vec<Class>, Vec<Class>) =

@@ -214,7 +214,11 @@ fn legend(family: &Family, curves: &[Curve]) -> Vec<(Key, String)> {
         entries.push((Key::Line(RECORD), format!("{} records", family.records)));
     }
     let named = curves.iter().filter(|curve| !curve.name.is_empty());
-    entries.extend(named.map(|curve| (Key::Line(curve.stroke.clone()), curve.name.clone())));
+    let key = |stroke: &Stroke| match family.is_joined {
+        true => Key::Line(stroke.clone()),
+        false => Key::Fill(stroke.color),
+    };
+    entries.extend(named.map(|curve| (key(&curve.stroke), curve.name.clone())));
     entries
 }
 
@@ -269,7 +273,7 @@ impl Place<'_> {
         for part in parts {
             let known: Vec<(f64, f64)> = part.iter().filter_map(|(x, number)| Some((*x, (*number)?))).collect();
             if !is_joined || known.len() == 1 {
-                known.iter().for_each(|value| sheet.dot(at(*value)));
+                known.iter().for_each(|value| sheet.dot(at(*value), curve.stroke.color));
                 continue;
             }
             // Between two positions at which the column is lost nothing is drawn.

@@ -108,6 +108,13 @@ pub struct Grid {
     pub truncation: String,
 }
 
+/// Share of some panels whose class is `wanted`, by the areas of the cells of each panel.
+pub fn share(panels: &[Vec<Class>], areas: &[f64], wanted: impl Fn(Class) -> bool) -> f64 {
+    let cells = || panels.iter().flat_map(|panel| panel.iter().zip(areas));
+    let total: f64 = cells().map(|(_, area)| area).sum();
+    cells().filter(|(class, _)| wanted(**class)).map(|(_, area)| area).sum::<f64>() / total
+}
+
 impl Grid {
     /// The cells of the points of a whole sweep.
     pub fn of(points: &Points, plane: Plane) -> Result<Grid, NoSpectrum> {
@@ -123,10 +130,11 @@ impl Grid {
         Ok(Grid { plane, panels, truncation: points.truncation() })
     }
 
-    /// Share of the cells of some panels whose class is `wanted`.
-    pub fn share(panels: &[Vec<Class>], wanted: impl Fn(Class) -> bool) -> f64 {
-        let cells = || panels.iter().flatten();
-        cells().filter(|class| wanted(**class)).count() as f64 / cells().count() as f64
+    /// Areas of the cells of a panel, row by row, the lowest row first, as shares of the panel.
+    pub fn areas(&self) -> Vec<f64> {
+        let sizes = |scale: &Scale| scale.edges.windows(2).map(|edges| edges[1] - edges[0]).collect::<Vec<f64>>();
+        let widths = sizes(&self.plane.x);
+        sizes(&self.plane.y).iter().flat_map(|height| widths.iter().map(move |width| width * height)).collect()
     }
 
     /// What columns that are lost do, for texts: "overturn", or "overturn or collapse" where some collapse.

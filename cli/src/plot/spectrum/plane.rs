@@ -3,7 +3,7 @@
 
 use super::cells::{cells, legend, percent};
 use super::class::Class;
-use super::grid::{Grid, Plane};
+use super::grid::{Grid, Plane, share};
 use super::place::{GAP, NUMBERS, Place, TITLE, line};
 use crate::plot::curve::{self, Frame, Point};
 use crate::plot::paper::Paper;
@@ -61,9 +61,11 @@ pub fn spectrum(grid: &Grid, paper: &Paper) -> Figure {
         style::LABEL,
         Anchor::Middle,
     );
-    sheet.height = sheet.legend(bottom + NUMBERS + 20.0, &legend(&grid.panels, Some((LEAST, grid.loss().it)))) + 6.0;
+    let areas = grid.areas();
+    let entries = legend(&grid.panels, &areas, Some((LEAST, grid.loss().it)));
+    sheet.height = sheet.legend(bottom + NUMBERS + 20.0, &entries) + 6.0;
 
-    let share = |panel: usize| percent(Grid::share(&grid.panels[panel..=panel], Class::is_lost));
+    let share = |panel: usize| percent(share(&grid.panels[panel..=panel], &areas, Class::is_lost));
     let parts = (0..titles.len()).map(|panel| format!("{} {}", titles[panel], share(panel)).trim_start().to_string());
     let caption = format!(
         "{what}. Share of the plane that {}: {}.{}",

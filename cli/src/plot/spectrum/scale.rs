@@ -153,7 +153,18 @@ fn label(key: &str) -> String {
     let (above, last) = key.rsplit_once('.').unwrap_or(("", key));
     let named = |name: &str| LABELS.iter().find(|(own, _)| *own == name).map(|(_, label)| *label);
     let known = named(key).or_else(|| named(last)).unwrap_or(last);
+    let indexed = last.strip_suffix(']').and_then(|last| last.split_once('['));
     match above {
+        "initial" if indexed.is_some() => {
+            let (name, block) = indexed.expect("it is there");
+            let (symbol, unit) = match name {
+                "theta" => ("θ", " [rad]"),
+                "omega" => ("ω", " [rad/s]"),
+                "vx" | "vy" => (name, " [m/s]"),
+                _ => (name, " [m]"),
+            };
+            format!("Initial {symbol} of block {block}{unit}")
+        }
         "excitation.vertical" => format!("{known}, vertical"),
         block if block.starts_with("block") => format!("{known}, {block}"),
         _ => known.into(),

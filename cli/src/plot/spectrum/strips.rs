@@ -3,7 +3,7 @@
 use super::cells::{cells, legend, percent};
 use super::class::Class;
 use super::family::Family;
-use super::grid::Grid;
+use super::grid::share;
 use super::place::{GAP, NUMBERS, Place, TITLE};
 use super::points::Points;
 use super::scale::Scale;
@@ -47,8 +47,9 @@ pub fn draw(points: &Points, family: &Family, paper: &Paper) -> Figure {
     }
     let below = [EDGE + 0.5 * width, bottom + NUMBERS + 12.0];
     sheet.words(below, &x.label(), style::LABEL, Anchor::Middle);
-    sheet.height = sheet.legend(below[1] + 8.0, &legend(&strips, None)) + 6.0;
-    let share = |strip: &Vec<Class>| percent(Grid::share(std::slice::from_ref(strip), Class::is_lost));
+    let each_the_same = vec![1.0; x.values.len()];
+    sheet.height = sheet.legend(below[1] + 8.0, &legend(&strips, &each_the_same, None)) + 6.0;
+    let share = |strip: &Vec<Class>| percent(share(std::slice::from_ref(strip), &each_the_same, Class::is_lost));
     let parts: Vec<String> = family
         .titles
         .iter()
