@@ -245,12 +245,31 @@ impl<O: Output> Step<'_, '_, O> {
         let [near, end] = self.leaving(value, limit, clear);
         let one = value(self, near);
         if one <= clear {
-            // The guard does not leave zero, or (`end < limit`) comes back before that can be resolved.
-            return (end < limit).then_some(0.0);
+            // It comes back before that can be resolved (`end < limit`), or does not leave zero upwards at once.
+            return if end < limit { Some(0.0) } else { self.falls_from_zero(value, noise, clear, limit) };
         }
         let two = value(self, (2.0 * near).min(end));
         let order = libm::log2((two / one).abs()).round().clamp(1.0, 3.0) as i32;
         first_crossing(|s| value(self, s.max(near)) / (s.max(near) / near).powi(order), one, end)
+    }
+
+    /// The first place up to `limit` at which a guard that has not left zero upwards is below zero by more than `clear`; where it is above `noise` half-way to
+    /// that place, the place at which it falls to zero.
+    fn falls_from_zero(
+        &mut self,
+        value: &dyn Fn(&mut Self, f64) -> f64,
+        noise: f64,
+        clear: f64,
+        limit: f64,
+    ) -> Option<f64> {
+        let start = value(self, 0.0);
+        let below = first_crossing(|s| value(self, s) + clear, start + clear, limit)?;
+        let half = 0.5 * below;
+        let above = value(self, half);
+        if above <= noise {
+            return Some(below);
+        }
+        first_crossing(|s| value(self, half + s), above, half).map(|s| half + s)
     }
 
     /// A place at which a guard has left zero by more than `clear`, upwards before it comes back, and the end of what is known of it: `limit`, or the first
