@@ -18,8 +18,11 @@ use rocking::studies::{
     RunError,
 };
 use rocking::sweep::ERROR;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+/// A run of a study in errors.
+const RUN: &str = "<run of a study>";
 
 /// Components of a record under a name.
 #[pyclass(frozen, module = "rocking._rocking")]
@@ -145,10 +148,17 @@ impl Ida {
         Scene { scene: Arc::new(self.ida.scene().clone()), origin: Arc::new(Origin::default()) }
     }
 
-    /// The scene of a run.
-    fn scene(&self, py: Python<'_>, index: usize) -> PyResult<Scene> {
+    /// The scene of a run, with rows at this interval, or at these times, where they are given.
+    fn scene(&self, py: Python<'_>, index: usize, interval: Option<f64>, times: Option<Vec<f64>>) -> PyResult<Scene> {
         range(index, index + 1, self.ida.len())?;
-        let scene = self.ida.scene_of(index).map_err(|failed| run_error(py, &failed))?;
+        let mut scene = self.ida.scene_of(index).map_err(|failed| run_error(py, &failed))?;
+        if interval.is_some() {
+            (scene.output_dt, scene.output_times) = (interval, Vec::new());
+        }
+        if let Some(times) = times {
+            (scene.output_dt, scene.output_times) = (None, times);
+        }
+        scene.check().map_err(|errors| error::faults(py, Path::new(RUN), &errors))?;
         Ok(Scene { scene: Arc::new(scene), origin: Arc::new(Origin::default()) })
     }
 

@@ -11,7 +11,7 @@ use rocking::scene_file::{Setting, Template};
 use rocking::sweep::{Axis, Cell, CellKind, DETERMINED, ERROR, Field, NOT_DETERMINED, Outcome, PointError};
 use rocking::{Fate, Wanted};
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A base scene and what varies.
@@ -62,10 +62,22 @@ impl Sweep {
         self.sweep.axes.iter().map(|axis| (axis.key.clone(), axis.values.len())).collect()
     }
 
-    /// The scene of a point.
+    /// Text and file of the base scene.
+    #[getter]
+    fn base(&self) -> (&str, &Path) {
+        (self.sweep.template.text(), self.sweep.template.file())
+    }
+
+    /// The scene of a point, with the rows of the base scene.
     fn scene(&self, py: Python<'_>, index: usize) -> PyResult<Scene> {
         range(index, index + 1, self.sweep.len())?;
-        let mut scene = self.sweep.scene(index).map_err(|refused| error::scene(py, &refused))?;
+        let keys = self.sweep.axes.iter().map(|axis| axis.key.as_str());
+        let whole = self.sweep.template.with(keys.zip(self.sweep.settings(index)));
+        let mut scene = whole.map_err(|refused| error::scene(py, &refused))?;
+        if scene.check().is_err() {
+            // Rows are too many for the memory.
+            (scene.output_dt, scene.output_times) = (None, Vec::new());
+        }
         // What is asked of a run is said where it is run.
         scene.options.wanted = Wanted::Everything;
         let origin = Origin { file: self.sweep.template.file().into(), text: self.sweep.template.text().into() };

@@ -36,6 +36,15 @@ def text(table: pd.DataFrame) -> bytes:
     return table.to_csv(index=False).encode()
 
 
+@pytest.mark.parametrize("points", [1, 9, 63, 100])
+def test_partitions_of_fast_studies_are_found(points: int) -> None:
+    """The search for a partition did not end where the points are no multiple of eight."""
+    sweep = rk.Sweep(SCENE, {"amplitude_uplift": [1.0 + 0.05 * point for point in range(points)]})
+    assert rd.partition_size(sweep, threads=0) >= points and rd.frame(sweep).npartitions == 1
+    with pytest.raises(TypeError, match="give a Sweep or an Ida"):
+        rd.frame(SCENE)  # type: ignore[arg-type]
+
+
 def test_columns_are_known_beforehand() -> None:
     lazy = rd.frame(SWEEP, partition_size=1000)
     here = SWEEP.table(0, 10)

@@ -253,3 +253,26 @@ def test_rows_that_are_not_wanted_are_not_too_many() -> None:
         rk.simulate(COLUMN, motion, t_end=1e5)
     with pytest.raises(rk.SceneError, match="rtol"):
         rk.simulate(COLUMN, motion, rtol=2.0, rows=False)
+
+
+def test_another_column_comes_with_its_own_gravity_and_size() -> None:
+    moon = rk.Column.prisms(1, half_width=0.4, half_height=1.6, gravity=1.62)
+    earth = rk.Column.prisms(1, half_width=0.2, half_height=0.8)
+    scene = rk.Scene(moon, theta=[0.1], t_end=3)
+    assert scene.replace(column=earth) == rk.Scene(earth, theta=[0.1], t_end=3) and scene.replace(column=earth).column == earth
+    assert scene.replace(column=earth, gravity=1.62).column.p < earth.p
+    sized = rk.Scene(earth, theta=[0.1], t_end=3, keys={"size.alpha": 0.1})
+    assert sized.replace(column=moon).column == moon
+
+
+def test_a_scene_is_of_the_folder_in_which_it_was_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    column = '[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.6\n[excitation.horizontal]\nkind = "record"\nfile = "r.csv"\n'
+    for folder, peak in (("a", 0.3), ("b", 0.6)):
+        (tmp_path / folder / "in").mkdir(parents=True)
+        (tmp_path / folder / "in" / "s.toml").write_text(column)
+        rk.Record([0.0, peak * 9.81, 0.0, 0.0], 0.02).to_csv(tmp_path / folder / "in" / "r.csv")
+    monkeypatch.chdir(tmp_path / "a")
+    scene = rk.Scene.load("in/s.toml")
+    monkeypatch.chdir(tmp_path / "b")
+    one, other = (rk.simulate(own, rows=False).summary["peak_ground_acceleration"] for own in (scene, scene.replace(rtol=1e-8)))
+    assert one == other

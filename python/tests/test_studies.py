@@ -128,8 +128,44 @@ def test_a_point_of_a_sweep_is_a_scene() -> None:
     assert sweep.axes == {"excitation.horizontal.amplitude_uplift": 2, "excitation.horizontal.omega_p": 3}
     assert [sweep.shard(part, 4) for part in (1, 2, 3, 4)] == [range(0, 1), range(1, 3), range(3, 4), range(4, 6)]
     pd.testing.assert_frame_equal(pickle.loads(pickle.dumps(sweep)).table(), table)
+    assert len(run.t) > 10 and run.force is None and len(rk.simulate(sweep.scene(1), rows=False).t) == 0
     with pytest.raises(IndexError):
         sweep.table(0, 7)
+
+
+def test_a_sweep_of_a_file_stays_what_it_was_when_it_was_read(tmp_path: Path) -> None:
+    SCENE.save(tmp_path / "base.toml")
+    text = 'scene = "base.toml"\nask = "peaks"\n[axes]\nomega_p = [2.0, 4.0]\namplitude_uplift = { from = 1.0, to = 8.0, steps = 5 }\n'
+    (tmp_path / "sweep.toml").write_text(text)
+    sweep = rk.Sweep.load(tmp_path / "sweep.toml")
+    pickled = pickle.dumps(sweep)
+    (tmp_path / "sweep.toml").write_text('scene = "base.toml"\n[axes]\nomega_p = [9.0]\n')
+    (tmp_path / "base.toml").unlink()
+    pd.testing.assert_frame_equal(pickle.loads(pickled).table(), sweep.table())
+
+
+def test_runs_that_are_cut_are_told() -> None:
+    scene = rk.Scene(rk.Column.prisms(1, half_width=0.3, half_height=1.2), {"kind": "synthetic", "pgv": 0.5, "seed": 1}, eta=0.9, t_end=5)
+    study = rk.Study(rk.sweep(scene, {"seed": list(range(4)), "pgv": [0.4, 0.8, 1.6]}, ask="peaks"))
+    count = int(study.table.truncated.sum())
+    assert count > 6
+    with pytest.warns(UserWarning, match=f"^{count} run.s. end before their ground motion") as told:
+        study.fragility(replicates=0)
+    assert [warning.filename for warning in told] == [__file__]
+    with pytest.warns(UserWarning) as told:
+        study.plot()
+    assert [warning.filename for warning in told] == [__file__]
+
+
+def test_runs_of_a_study_have_the_rows_that_the_scene_asks_for() -> None:
+    column, record = rk.Column.prisms(1, half_width=0.4, half_height=1.6), rk.synthetic([1])
+    first = [rk.Ida(rk.Scene(column, eta=0.9, **rows), record, "pga_g", [0.3]).simulate(0).t for rows in ({}, {"output_dt": 0.1}, {"t_eval": [1.0, 2.0]})]
+    assert first[0][1] < 0.02 and first[1][1] == 0.1 and first[2].tolist() == [1.0, 2.0]
+    with pytest.raises(TypeError, match="horizontal is of int; give a Record"):
+        rk.StudyRecord("a", 3)  # type: ignore[arg-type]
+    table = pd.DataFrame([[0.1, 0.2, "rocks"]], columns=["pgv", "pgv", "outcome"])
+    with pytest.raises(rk.StudyError, match="several columns `pgv`"):
+        rk.Study(table, "pgv")
 
 
 def test_a_record_in_memory_is_swept() -> None:

@@ -110,7 +110,8 @@ pub fn read(table: &Path, measure: Option<&str>, conditions: &[(String, String)]
         if let (ERROR, Some(error)) = (&row[columns.outcome], columns.error) {
             first_error.get_or_insert_with(|| row[error].to_string());
         }
-        cut += usize::from(columns.truncated.is_some_and(|truncated| &row[truncated] == "true"));
+        // `True` where another program has written the table.
+        cut += usize::from(columns.truncated.is_some_and(|truncated| row[truncated].eq_ignore_ascii_case("true")));
         let run = columns.observation(&row, number);
         runs.push(run.map_err(|problem| refused(format!("row {}, {problem}", number + 1)))?);
     }

@@ -14,6 +14,6 @@ def copied(value: Any) -> Any:
         return value
     if isinstance(value, Mapping):
         return {key: copied(item) for key, item in value.items()}
-    if isinstance(value, (list, tuple)):
+    if isinstance(value, (list, tuple, range)):
         return [copied(item) for item in value]
     return np.array(value) if hasattr(value, "tolist") else value

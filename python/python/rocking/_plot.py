@@ -29,6 +29,8 @@ def record(drawn: "Record", ax: "Axes | None" = None) -> "Axes":
 def run(drawn: "Run", axes: Any = None) -> "npt.NDArray[Any]":
     if axes is None:
         axes = plt.subplots(2, 1, sharex=True, figsize=(8, 5), height_ratios=[1, 2.5], layout="constrained")[1]
+    if np.shape(axes) != (2,):
+        raise ValueError("axes are those of the ground and of the angles; give two, such as plt.subplots(2, 1)[1]")
     above, below = axes
     # A single row is a point.
     marker = "." if len(drawn.t) == 1 else None
@@ -54,7 +56,8 @@ def run(drawn: "Run", axes: Any = None) -> "npt.NDArray[Any]":
 
 def study(drawn: "Study", ax: "Axes | None" = None) -> "Axes":
     ax = plt.subplots(figsize=(6, 5), layout="constrained")[1] if ax is None else ax
-    runs = drawn._runs
+    runs = drawn._runs(stacklevel=4)
+    stripes = drawn._stripes(runs)
     labels, levels, outcomes, peaks = runs.records, runs.levels, runs.outcomes, runs.peaks
     demand = np.fmax.reduce(peaks, axis=1) if peaks.shape[1] else np.full(len(levels), np.nan)
     # Runs that failed or are not determined have no answer, as in the figure of the command line.
@@ -71,8 +74,8 @@ def study(drawn: "Study", ax: "Axes | None" = None) -> "Axes":
         own = own[np.argsort(sizes[own])]
         ax.plot(demand[own], sizes[own], lw=0.8, color="0.7", marker=".", ms=3)
     for share, style in ((16, ":"), (50, "-"), (84, "--")):
-        fractile = np.minimum(drawn.stripes[f"peak_{share}"].to_numpy(), right)
-        ax.plot(fractile, drawn.stripes[drawn.measure], style, color="C0", lw=1.6, label=f"{share} %")
+        fractile = np.minimum(stripes[f"peak_{share}"].to_numpy(), right)
+        ax.plot(fractile, stripes[drawn.measure], style, color="C0", lw=1.6, label=f"{share} %")
     ax.axvline(right, color="0.4", lw=0.8)
     ax.annotate("lost", (right, 1.01), xycoords=("data", "axes fraction"), ha="right", fontsize="small")
     ax.set(xlabel="largest |θ| / α", ylabel=drawn.label, xlim=(0, right * 1.02), ylim=(0, None))
@@ -84,7 +87,8 @@ def fragility(drawn: "Fragility", ax: "Axes | None" = None, **style: Any) -> "Ax
     ax = plt.subplots(figsize=(6, 4), layout="constrained")[1] if ax is None else ax
     counts = drawn.counts
     known = counts[counts.runs > 0]
-    color = style.pop("color", None) or ax._get_lines.get_next_color()  # type: ignore[attr-defined]
+    color = style.pop("color", style.pop("c", None))
+    color = ax._get_lines.get_next_color() if color is None else color  # type: ignore[attr-defined]
     label = style.pop("label", drawn.state)
     ax.plot(known.level, known.share, "o", ms=4, mfc="none", color=color, label=f"{label}: no curve" if drawn.median is None else None)
     if drawn.median is not None and len(known):

@@ -250,6 +250,9 @@ class StudyRecord:
     """Components of one record under a name: horizontal, and perhaps vertical."""
 
     def __init__(self, name: str, horizontal: Record, vertical: Record | None = None) -> None:
+        for direction, record in (("horizontal", horizontal), ("vertical", vertical)):
+            if not isinstance(record, Record) and not (record is None and direction == "vertical"):
+                raise TypeError(f"{direction} is of {type(record).__name__}; give a Record")
         self.name = name
         self.horizontal = horizontal
         self.vertical = vertical

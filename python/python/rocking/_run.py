@@ -8,7 +8,7 @@ import tempfile
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 from html import escape
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -116,8 +116,18 @@ def trust(
     return found
 
 
+Fixed = TypeVar("Fixed", bound="npt.NDArray[Any] | None")
+
+
+def _fixed(values: Fixed) -> Fixed:
+    """An array that cannot be written to: who converts it in place would change the run."""
+    if values is not None:
+        values.flags.writeable = False
+    return values
+
+
 class Run:
-    """The response of a column. Blocks and interfaces are base first."""
+    """The response of a column. Blocks and interfaces are base first; arrays are read-only, ``copy()`` gives one to change."""
 
     def __init__(self, scene: Scene, response: _rocking.Response) -> None:
         self.scene = scene
@@ -126,70 +136,74 @@ class Run:
     @cached_property
     def t(self) -> Array:
         """Times of the rows [s], shape (rows,)."""
-        return self._response.t()
+        return _fixed(self._response.t())
 
     @cached_property
     def theta(self) -> Array:
         """Angles of the blocks [rad], clockwise positive, shape (rows, blocks)."""
-        return self._response.theta()
+        return _fixed(self._response.theta())
 
     @cached_property
     def omega(self) -> Array:
         """Rates of the angles [rad/s], shape (rows, blocks)."""
-        return self._response.omega()
+        return _fixed(self._response.omega())
 
     @cached_property
     def ground(self) -> Array:
         """Ground acceleration, horizontal and vertical [m/s²], shape (rows, 2)."""
-        return self._response.ground()
+        return _fixed(self._response.ground())
 
     @cached_property
     def pattern(self) -> npt.NDArray[np.int8]:
         """Signs of the interfaces: 1 open on the right corner, -1 on the left, 0 closed; shape (rows, blocks)."""
-        return self._response.pattern()
+        return _fixed(self._response.pattern())
 
     @cached_property
     def slide(self) -> Array | None:
         """Slides at the interfaces [m], shape (rows, blocks); None without friction."""
-        return self._response.slide()
+        return _fixed(self._response.slide())
 
     @cached_property
     def gap(self) -> Array | None:
         """Gaps of free interfaces [m], shape (rows, blocks); None without friction."""
-        return self._response.gap()
+        return _fixed(self._response.gap())
 
     @cached_property
     def place(self) -> Array | None:
         """Centroids in the frame of the ground [m], shape (rows, blocks, 2); None where nothing slides or flies."""
-        state = self._response.place_and_velocity()
+        state = _fixed(self._response.place_and_velocity())
         return None if state is None else state[:, :, :2]
 
     @cached_property
     def velocity(self) -> Array | None:
         """Velocities of the centroids in the frame of the ground [m/s], shape (rows, blocks, 2); None where nothing slides or flies."""
-        state = self._response.place_and_velocity()
+        state = _fixed(self._response.place_and_velocity())
         return None if state is None else state[:, :, 2:]
 
     @cached_property
     def force(self) -> Array | None:
         """Normal force, tangential force [N] and moment [N m] of the contacts, shape (rows, blocks, 3); None where nothing slides or flies."""
-        return self._response.force()
+        return _fixed(self._response.force())
 
     @cached_property
     def phi(self) -> Array:
         """Rotations at the interfaces [rad], the angle of the block above minus that of the block below, shape (rows, blocks)."""
-        return self._response.relative_angles()
+        return _fixed(self._response.relative_angles())
 
     @cached_property
     def top(self) -> Array:
         """Displacement of the middle of the column's top in the frame of the ground [m], to the right and upwards, shape (rows, 2)."""
-        return self._response.top_displacement()
+        return _fixed(self._response.top_displacement())
 
-    @cached_property
+    @property
     def events(self) -> pd.DataFrame:
         """Impacts, openings and other events, a row each: ``t`` [s], ``kind``, ``interface``, patterns and modes, angles [rad], rates [rad/s], impulses [N s].
         Where blocks slid or flew also states with slides and flights, such as ``(+>,0,f)``, and slides [m].
         """
+        return self._events.copy()
+
+    @cached_property
+    def _events(self) -> pd.DataFrame:
         columns: dict[str, Any] = {}
         for name, values in self._response.events().items():
             if getattr(values, "ndim", 1) == 2:
@@ -200,9 +214,9 @@ class Run:
                 columns[name] = values if isinstance(values, np.ndarray) else pd.array(values, dtype="string")
         return pd.DataFrame(columns)
 
-    @cached_property
+    @property
     def summary(self) -> dict[str, Any]:
-        """The content of ``summary.json``."""
+        """The content of ``summary.json``, read anew each time."""
         read: dict[str, Any] = json.loads(self._response.summary())
         return read
 
@@ -214,7 +228,9 @@ class Run:
 
     @property
     def status(self) -> str:
-        """Why the run ended: ``end-of-time``, ``at-rest``, ``overturned``, ``collapsed``, ``undetermined``, ..."""
+        """Why the run ended: ``end-of-time``, ``at-rest``, ``overturned``, ``collapsed``, ``undetermined``; where only the outcome is asked for,
+        also ``stands`` and ``falls`` from the time on at which that is certain.
+        """
         return self._response.status
 
     @property
@@ -248,7 +264,7 @@ class Run:
     @cached_property
     def peak_theta(self) -> Array:
         """Largest size of each angle [rad], shape (blocks,)."""
-        return self._response.peak_theta()
+        return _fixed(self._response.peak_theta())
 
     @cached_property
     def alpha(self) -> Array:

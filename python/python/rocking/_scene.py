@@ -67,6 +67,9 @@ ARGUMENTS: dict[str, str] = {
     "output_columns": "output.columns",
 }
 
+#: Keys of a scene that are those of its column.
+OF_COLUMN = ("column", "block", "gravity", "size")
+
 #: Keys of which a scene has one.
 ALTERNATIVES = ({"restitution.law", "restitution.eta", "restitution.factors"}, {"output.dt", "output.times"})
 
@@ -318,7 +321,8 @@ class Scene:
     @classmethod
     def load(cls, file: str | os.PathLike[str]) -> "Scene":
         """Reads a scene file; records are found relative to it."""
-        path = os.fspath(file)
+        # What is read later of its records, by `replace` or another process, may be read in another folder.
+        path = os.path.abspath(file)
         return cls.from_toml(_rocking.scene_text(path), file=path)
 
     @classmethod
@@ -345,11 +349,11 @@ class Scene:
     ) -> "Scene":
         """The scene with other arguments; ``keys`` takes dotted ones such as ``{"block[2].mass": 900.0}``.
 
-        None removes a key: ``friction=None`` gives the scene without friction, ``keys={"excitation.vertical": None}`` without vertical motion.
+        Another column comes with its own gravity, 9.81 m/s² where it has none. None removes a key: ``friction=None`` gives the scene without friction, ``keys={"excitation.vertical": None}`` without vertical motion.
         """
         keys = self.keys
         if column is not None:
-            keys = {**{key: value for key, value in keys.items() if key not in ("column", "block")}, **copied(column._keys)}
+            keys = {**{key: value for key, value in keys.items() if key not in OF_COLUMN}, **copied(column._keys)}
         for name, motion in (("horizontal", horizontal), ("vertical", vertical)):
             if motion is not None:
                 _put(keys, f"excitation.{name}", copied(checked(f"{name} motion", motion)))
@@ -386,7 +390,7 @@ class Scene:
         """The column."""
         made = Column.__new__(Column)
         keys = self.keys
-        made._become({key: keys[key] for key in ("column", "block", "gravity", "size") if key in keys}, None)
+        made._become({key: keys[key] for key in OF_COLUMN if key in keys}, None)
         return made
 
     @property

@@ -119,8 +119,14 @@ class Ida:
         return Study(self.table(threads=threads), self.measure)
 
     def scene_of(self, index: int) -> Scene:
-        """The scene of a run, with rows and without forces. It is run as it is: it has no keys, and nothing in it can be replaced."""
-        return Scene._of({}, RUN, self._ida.scene(whole("index", index)))
+        """The scene of a run, without forces, with the rows that the base scene asks for, else with the samples of the record among them.
+
+        It is run as it is: it has no keys, and nothing in it can be replaced.
+        """
+        asked = self.scene.keys.get("output") or {}
+        times = asked.get("times")
+        times = None if times is None else np.asarray(times, dtype=np.float64).tolist()
+        return Scene._of({}, RUN, self._ida.scene(whole("index", index), asked.get("dt"), times))
 
     def simulate(self, index: int) -> Run:
         """A run alone, with rows and without forces."""
@@ -202,6 +208,9 @@ class Study:
                 problem = f"several columns are measures: {', '.join(known)}" if known else "no column has the name of a measure"
                 raise StudyError(f"{problem}; name the column with `measure`")
             measure = known[0]
+        twice = table.columns[table.columns.duplicated()]
+        if len(twice):
+            raise StudyError(f"the table has several columns `{twice[0]}`; give each once")
         for name in (measure, "outcome"):
             if name not in table.columns:
                 raise StudyError(f"the table has no column `{name}`; it has {', '.join(map(str, table.columns))}")
@@ -231,8 +240,8 @@ class Study:
         """Label of an axis of the measure: quantity and unit."""
         return _rocking.measure_label(_last(self.measure)) or self.measure
 
-    @property
-    def _runs(self) -> "Runs":
+    def _runs(self, stacklevel: int = 3) -> "Runs":
+        """Columns as the library reads them; what must be known of them is a warning, `stacklevel` calls above."""
         table = self.table
         names = [str(name) for name in table.columns]
         of_records = [table.columns[place] for place in _rocking.record_columns(names)]
@@ -247,7 +256,13 @@ class Study:
         for name in axes:
             count = 1 if name in of_records else table[name].nunique(dropna=False)
             if count > 1:
-                warnings.warn(f"the rows of all {count} values of `{name}` make one curve; filter the table for those of one", stacklevel=3)
+                warnings.warn(f"the rows of all {count} values of `{name}` make one curve; filter the table for those of one", stacklevel=stacklevel)
+        if "truncated" in names:
+            standing = ~table["outcome"].isin(["overturns", "collapses", "error"])
+            cut = int((standing & (table["truncated"].astype("string").str.lower() == "true").fillna(False)).sum())
+            if cut:
+                told = f"{cut} run(s) end before their ground motion, or with the energy to overturn (`truncated`), and count as standing"
+                warnings.warn(told, stacklevel=stacklevel)
 
         def texts(name: str) -> list[str | None]:
             return [None if pd.isna(cell) else str(cell) for cell in table[name]]
@@ -272,8 +287,10 @@ class Study:
     @property
     def stripes(self) -> pd.DataFrame:
         """A row per level: counts of outcomes, and the 16, 50 and 84 % fractiles of the largest |θ|/α, infinite where the column is lost, NaN where peaks are unknown."""
-        columns = _rocking.stripes(self._runs)
-        return pd.DataFrame(columns).rename(columns={"level": self.measure})
+        return self._stripes(self._runs())
+
+    def _stripes(self, runs: "Runs") -> pd.DataFrame:
+        return pd.DataFrame(_rocking.stripes(runs)).rename(columns={"level": self.measure})
 
     def fragility(
         self,
@@ -298,7 +315,7 @@ class Study:
         """
         if not isinstance(state, str):
             raise TypeError(f"state is of {type(state).__name__}; give the text of one limit state, such as \"overturned\"")
-        runs = self._runs
+        runs = self._runs()
         kind = state.strip().split("_")[0].split()[0] if state.strip() else ""
         if kind.startswith("peak") and runs.peaks.shape[1] == 0:
             raise StudyError(f"the state `{state}` needs the columns peak_1, ...: run the sweep with ask = \"peaks\"")

@@ -69,9 +69,10 @@ class Sweep:
     def load(cls, file: str | os.PathLike[str]) -> "Sweep":
         """Reads a sweep file."""
         made = cls.__new__(cls)
-        # A process that runs a part may have another folder.
-        made._source = (os.path.abspath(file),)
-        made._sweep = _rocking.Sweep.load(os.fspath(file))
+        # A process that runs a part may have another folder, and the file may be another by then.
+        path = os.path.abspath(file)
+        made._sweep = _rocking.Sweep.load(path)
+        made._source = (path, _rocking.scene_text(path), *made._sweep.base)
         return made
 
     @property
@@ -88,7 +89,7 @@ class Sweep:
         return len(self._sweep)
 
     def scene(self, index: int) -> Scene:
-        """The scene of a point, without rows and forces. It is run as it is: it has no keys, and nothing in it can be replaced."""
+        """The scene of a point, with rows and forces. It is run as it is: it has no keys, and nothing in it can be replaced."""
         return Scene._of({}, POINT, self._sweep.scene(whole("index", index)))
 
     def table(self, start: int = 0, stop: int | None = None, *, threads: int = 0) -> pd.DataFrame:
@@ -121,8 +122,11 @@ class Sweep:
         return self._source
 
     def __setstate__(self, source: tuple[Any, ...]) -> None:
-        if len(source) == 1:
-            self.__dict__.update(Sweep.load(source[0]).__dict__)
+        if len(source) == 4:
+            path, text, base, base_file = self._source = source
+            keys = _rocking.from_toml(text)
+            keys.pop("scene", None)
+            self._sweep = _rocking.Sweep.from_toml(_rocking.to_toml(keys), path, base, base_file)
         else:
             scene, axes, ask, combine, sampling = source
             self.__init__(scene, axes, ask=ask, combine=combine, sampling=sampling)  # type: ignore[misc]

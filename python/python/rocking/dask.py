@@ -56,17 +56,18 @@ def partition_size(plan: Plan, *, seconds: float = SECONDS_PER_PARTITION, thread
 
     The estimate costs about half a second of runs; partitions of a study whose runs differ much take between a fraction and a multiple of it.
     """
-    length = len(plan)
+    length, threads = len(plan), threads or os.cpu_count() or 1
     pieces, rows, spent = 8, 4, 0.0
+    most = max(1, length // pieces)
     # A call costs half a millisecond beside its rows: it is timed over as many as make that little.
     while True:
-        rows = max(1, min(rows, length // pieces))
+        rows = min(rows, most)
         starts = sorted({(length - rows) * piece // (pieces - 1) for piece in range(pieces)})
         begin = time.process_time()
         for start in starts:
             plan.table(start, start + rows, threads=1)
         spent = time.process_time() - begin
-        if spent >= TIMED_SECONDS or rows * pieces >= length:
+        if spent >= TIMED_SECONDS or rows == most:
             break
         rows *= 2
     per_row = spent / (rows * len(starts)) / threads
@@ -91,6 +92,8 @@ def frame(plan: Plan, *, rows: range | None = None, partition_size: int | None =
     from dask.base import tokenize
     from dask.delayed import delayed
 
+    if not isinstance(plan, (Sweep, Ida)):
+        raise TypeError(f"plan is of {type(plan).__name__}; give a Sweep or an Ida")
     asked = range(len(plan)) if rows is None else rows
     if not isinstance(asked, range):
         raise TypeError(f"rows are of {type(asked).__name__}; give a range")

@@ -94,7 +94,9 @@ impl Points {
             }
             let class = Class::of(&row[outcome], &row[impacts]);
             let class = class.ok_or_else(|| broken(format!("point {} has outcome `{}`", &row[0], &row[outcome])))?;
-            truncated += usize::from(truncated_at.and_then(|at| row.get(at)) == Some("true"));
+            truncated += usize::from(
+                truncated_at.and_then(|at| row.get(at)).is_some_and(|cell| cell.eq_ignore_ascii_case("true")),
+            );
             let is_open = class == Class::Error || trust.is_some_and(|trust| row.get(trust) == Some(NOT_DETERMINED));
             let known = match class.is_lost() {
                 _ if is_open => Some(f64::NAN),
