@@ -148,7 +148,10 @@ pub fn subscript(number: usize) -> String {
 /// point.
 pub fn brief(value: f64) -> String {
     let size = value.abs();
-    let text = if size == 0.0 {
+    if !value.is_finite() {
+        return value.to_string();
+    }
+    let text = if size < f64::MIN_POSITIVE {
         "0".into()
     } else if (1e-3..1e5).contains(&size) {
         let decimals = (2 - size.log10().floor() as i32).clamp(0, 5) as usize;
@@ -188,8 +191,8 @@ mod tests {
         let texts = cases.map(|(value, step)| number(value, step));
         assert_eq!(texts, ["−0.5", "0", "1.0", "0.05", "250", "−2×10⁻⁶"]);
         assert_eq!(
-            [0.7841977, -0.25, 12.0, 0.0, 58.42, 1e-6].map(brief),
-            ["0.784", "−0.25", "12", "0", "58.4", "1×10⁻⁶"]
+            [0.7841977, -0.25, 12.0, 0.0, 58.42, 1e-6, 1.458e6, -1.548e-5].map(brief),
+            ["0.784", "−0.25", "12", "0", "58.4", "1×10⁻⁶", "1.46×10⁶", "−1.55×10⁻⁵"]
         );
         // The value decides on the power of ten, not the step.
         assert_eq!([5e-324, f64::INFINITY, 1e308].map(brief), ["0", "inf", "1×10³⁰⁸"]);

@@ -1,7 +1,7 @@
 //! Step programs and contact-force programs as Rust items.
 
 use super::expression::{Style, Writer};
-use super::layout::{count, doc};
+use super::layout::{count, doc, unpack, words_of};
 use super::number::number;
 use super::quantity::{group, meaning};
 use crate::ground::GroundMotion;
@@ -218,7 +218,7 @@ fn body(program: &Program, name: &str, literals: &HashMap<String, f64>) -> Token
 
 /// `let [cos_1, …] = *cos;`, with `_` for names that the body does not read, and a `let` for each literal that it reads.
 fn inputs(program: &Program, routine: &Routine, used: &str, literals: &HashMap<String, f64>) -> TokenStream {
-    let words: HashSet<&str> = used.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
+    let read = words_of(used);
     let families: &[&str] = match routine.name {
         "mass_matrix" => &["cos", "sin"],
         "weights" => &["cos_ddot", "sin_ddot"],
@@ -228,29 +228,29 @@ fn inputs(program: &Program, routine: &Routine, used: &str, literals: &HashMap<S
     let is_slice = routine.name == "contact_forces";
     let of_family = |family: &&str| (1..=program.dof).map(|link| format!("{family}_{link}")).collect::<Vec<_>>();
     let mut lets: TokenStream =
-        families.iter().map(|family| destructure(family, &of_family(family), &words, is_slice)).collect();
+        families.iter().map(|family| destructure(family, &of_family(family), &read, is_slice)).collect();
     let names = program.constants.iter().map(|constant| constant.name.clone());
     let (known, given): (Vec<String>, Vec<String>) = names.partition(|name| literals.contains_key(name));
-    lets.extend(destructure("constants", &given, &words, is_slice));
-    for name in known.iter().filter(|name| words.contains(name.as_str())) {
+    lets.extend(destructure("constants", &given, &read, is_slice));
+    for name in known.iter().filter(|name| read.contains(name.as_str())) {
         let (name, value) = (format_ident!("{name}"), number(literals[name]));
         lets.extend(quote! { let #name = ground_x.like(#value); });
     }
     lets
 }
 
-fn destructure(array: &str, names: &[String], words: &HashSet<&str>, is_slice: bool) -> TokenStream {
-    let array = format_ident!("{array}");
-    let is_read = |name: &String| words.contains(name.as_str());
-    if !names.iter().any(is_read) {
-        return quote! { let _ = #array; };
-    }
-    let length = count(names.len());
-    let names = names.iter().map(|name| format_ident!("{}", if is_read(name) { name } else { "_" }));
-    if is_slice {
-        quote! { let [#(#names),*] = *sized::<S, #length>(#array); }
+fn destructure(array: &str, names: &[String], read: &HashSet<&str>, is_slice: bool) -> TokenStream {
+    let (array, length) = (format_ident!("{array}"), count(names.len()));
+    let value = if is_slice {
+        quote! { *sized::<S, #length>(#array) }
     } else {
-        quote! { let [#(#names),*] = *#array; }
+        quote! { *#array }
+    };
+    let lets = unpack(names, &value, read);
+    if lets.is_empty() {
+        quote! { let _ = #array; }
+    } else {
+        lets
     }
 }
 
