@@ -117,3 +117,20 @@ def test_a_folder_is_read_by_components(tmp_path: Path) -> None:
     assert caught.value.file == str(tmp_path / "bad") and "<records>" not in str(caught.value) and "`files`" not in str(caught.value)
     with pytest.raises(ValueError, match="there twice"):
         rk.Records([made.named("a"), made.named("a")])
+
+
+def test_arguments_of_the_wrong_kind_are_named() -> None:
+    record = rk.Record([0.0, 1.0, 0.0], 0.01)
+    for call, told in (
+        (lambda: rk.Record(["1", "2"], 0.01), "accel has texts"),
+        (lambda: rk.Record((x for x in (1.0, 2.0)), 0.01), "accel is of generator; give a list"),
+        (lambda: rk.Record([0.0, 1.0], 0.01, name=None), "name is of NoneType"),
+        (lambda: record.scaled("2"), "scale is of str"),
+        (lambda: record.scaled(pga="1"), "pga is of str"),
+        (lambda: record.scaled(2.0, sa_period=3.0), "a factor has no sa_period"),
+        (lambda: rk.Records(record), "records is one Record; give a list"),
+        (lambda: rk.Ida(rk.Column.prisms(1, half_width=0.4, half_height=1.6), [record], "pga", [1.0], trust=1), "trust is of int"),
+        (lambda: rk.Ida(rk.Column.prisms(1, half_width=0.4, half_height=1.6), [record], "pga", {"from": 1}), "levels are a dictionary"),
+    ):
+        with pytest.raises(TypeError, match=told):
+            call()

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _rocking
-from ._arguments import number, whole
+from ._arguments import flag, number, whole
 from ._errors import MissingFileError, SceneError
 
 if TYPE_CHECKING:
@@ -50,8 +50,13 @@ class Record:
             raise ValueError("accel has masked samples; fill them, or cut the record there")
         if np.iscomplexobj(accel):
             raise ValueError("accel is complex; give real accelerations [m/s²]")
-        if np.asarray(accel).dtype.kind in "mM":
-            raise TypeError("accel has times; give accelerations [m/s²]")
+        given = np.asarray(accel)
+        if given.dtype.kind in "mMSU":
+            raise TypeError(f"accel has {'times' if given.dtype.kind in 'mM' else 'texts'}; give accelerations [m/s²]")
+        if given.ndim == 0 and given.dtype.kind == "O":
+            raise TypeError(f"accel is of {type(accel).__name__}; give a list or an array of accelerations [m/s²]")
+        if not isinstance(name, str):
+            raise TypeError(f"name is of {type(name).__name__}; give a text")
         samples = np.ascontiguousarray(accel, dtype=np.float64)
         if samples.ndim != 1:
             raise ValueError(f"accel has the shape {samples.shape}; give one acceleration per sample")
@@ -87,7 +92,7 @@ class Record:
         """
         name = None if column is None else str(column)
         channel, skip_rows = None if channel is None else whole("channel", channel), whole("skip_rows", skip_rows)
-        return cls._of(_rocking.Record.read(os.fspath(file), gravity, dt, units, lenient, channel, skip_rows, name))
+        return cls._of(_rocking.Record.read(os.fspath(file), gravity, dt, units, flag("lenient", lenient), channel, skip_rows, name))
 
     @classmethod
     def synthetic(
@@ -125,12 +130,14 @@ class Record:
             known = ", ".join(["scale", *_rocking.MEASURES])
             raise TypeError(f"give one size, of {known}; {len(size) + (scale is not None)} are given")
         if scale is not None:
-            return Record._of(self._record.scaled(float(scale)))
+            if sa_period is not None or sa_damping is not None:
+                raise TypeError("a factor has no sa_period and no sa_damping; leave them out, or give sa or sa_g")
+            return Record._of(self._record.scaled(number("scale", scale)))
         ((measure, value),) = size.items()
         if column is not None and not hasattr(column, "_native"):
             raise TypeError(f"column is of {type(column).__name__}; give a Column")
         scene = None if column is None else column._native()
-        return Record._of(self._record.scaled_to(measure, float(value), gravity, scene, sa_period, sa_damping))
+        return Record._of(self._record.scaled_to(measure, number(measure, value), gravity, scene, sa_period, sa_damping))
 
     def __add__(self, other: "MotionLike") -> "Motion":
         from ._motion import total
@@ -275,6 +282,8 @@ class Records(Sequence[StudyRecord]):
     def __init__(self, records: "Iterable[StudyRecord | Record]") -> None:
         if isinstance(records, str | os.PathLike):
             raise TypeError(f"{os.fspath(records)!r} is a path; give records(folder), or a list of Record")
+        if isinstance(records, (Record, StudyRecord)):
+            raise TypeError(f"records is one {type(records).__name__}; give a list of them")
         self._records: list[StudyRecord] = []
         for number, record in enumerate(records, start=1):
             if isinstance(record, Record):

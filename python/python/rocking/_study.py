@@ -15,7 +15,7 @@ import numpy.typing as npt
 import pandas as pd
 
 from . import _rocking
-from ._arguments import whole
+from ._arguments import flag, whole
 from ._errors import StudyError
 from ._frame import arrow, frame
 from ._record import Array, Record, Records, StudyRecord
@@ -70,8 +70,10 @@ class Ida:
         if scene is column and arguments:
             scene = scene.replace(**arguments)
         found = records if isinstance(records, Records) else Records(records)
+        if isinstance(levels, Mapping):
+            raise TypeError("levels are a dictionary; give a list or an array, such as numpy.linspace(0.1, 1.0, 10)")
         sizes = np.asarray(levels, dtype=np.float64).ravel().tolist()
-        self._source = (scene, found, measure, sizes, free_swing, sa_period, sa_damping, trust)
+        self._source = (scene, found, measure, sizes, free_swing, sa_period, sa_damping, flag("trust", trust))
         self._become()
 
     def _become(self) -> None:
