@@ -236,6 +236,16 @@ fn a_file_that_is_cut_off_is_refused() {
 }
 
 #[test]
+fn decimal_commas_of_dyna_are_named() {
+    let text = text("dyna/XX.MIB..HNE.D.64.ASC");
+    let samples = text.lines().position(|line| line.trim().parse::<f64>().is_ok()).expect("rows of samples");
+    let row = |(number, line): (usize, &str)| if number < samples { line.into() } else { line.replace('.', ",") };
+    let commas: Vec<String> = text.lines().enumerate().map(row).collect();
+    let error = refused(commas.join("\n").as_bytes(), &options());
+    assert!(matches!(error, RecordError::DecimalComma { line, .. } if line == samples + 1), "{error}");
+}
+
+#[test]
 fn two_units_are_refused_unless_the_options_are_lenient() {
     let peer = text("peer/RSN9001_HOLLOW_MIL090.AT2");
     let (series, count) = ("ACCELERATION TIME SERIES IN UNITS OF G", "NPTS=");

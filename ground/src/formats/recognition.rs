@@ -128,7 +128,9 @@ const SAC_REALS: usize = 14;
 fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, RecordError> {
     let sixteen = |bytes: &[u8], from: fn([u8; 2]) -> u16| {
         let units: Vec<u16> = bytes.chunks_exact(2).map(|pair| from([pair[0], pair[1]])).collect();
-        Cow::from(String::from_utf16_lossy(&units))
+        // A file that is cut off within a character: the replacement character refuses the number that it ends.
+        let cut = if bytes.len().is_multiple_of(2) { "" } else { "\u{fffd}" };
+        Cow::from(String::from_utf16_lossy(&units) + cut)
     };
     Ok(match bytes {
         [b'P', b'K', 3, 4, ..] => return Err(RecordError::NoText { kind: "a ZIP archive or a spreadsheet" }),
@@ -163,6 +165,7 @@ mod tests {
         for bytes in [&b"\xef\xbb\xbf12\n"[..], b"\xff\xfe1\x002\x00\n\x00", b"1\x002\x00\n\x00", b"\x001\x002\x00\n"] {
             assert_eq!(decode(bytes).as_deref(), Ok("12\n"), "{bytes:?}");
         }
+        assert_eq!(decode(b"\xff\xfe1\x002").as_deref(), Ok("1\u{fffd}"));
         assert_eq!(decode(b"Sa\xf3 1\n").as_deref(), Ok("Saó 1\n"));
         for bytes in [&b"PK\x03\x04..."[..], b"\x1f\x8b\x08"] {
             assert!(matches!(decode(bytes), Err(RecordError::NoText { .. })), "{bytes:?}");
