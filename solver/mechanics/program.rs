@@ -29,15 +29,6 @@ pub struct Geometry<S> {
     pub top_axial: Vec<S>,
 }
 
-/// The first values of a list, as many as the array has. Called by generated functions.
-///
-/// # Panics
-/// Panics if the list is shorter.
-#[must_use]
-pub fn leading<T: Copy, const LENGTH: usize>(values: &[T]) -> [T; LENGTH] {
-    *values.first_chunk().expect("lists are as long as the column has blocks, links or translations")
-}
-
 impl<S: Scalar> Geometry<S> {
     /// The same column in another scalar. `lift` is given each value in the order of the fields, base first, but gravity last.
     pub fn lift<T>(&self, mut lift: impl FnMut(S) -> T) -> Geometry<T> {
@@ -59,6 +50,15 @@ impl<S: Scalar> Geometry<S> {
             top_axial,
         }
     }
+}
+
+/// The first values of a list, as many as the array has. Called by generated functions.
+///
+/// # Panics
+/// Panics if the list is shorter.
+#[must_use]
+pub fn leading<T: Copy, const LENGTH: usize>(values: &[T]) -> [T; LENGTH] {
+    *values.first_chunk().expect("lists are as long as the column has blocks, links or translations")
 }
 
 /// The accelerations of all modes with the same number of degrees of freedom. Implemented by generated code.

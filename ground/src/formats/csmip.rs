@@ -229,3 +229,20 @@ fn unit_name(announced: &str) -> Option<&str> {
     let word = name.split_whitespace().next()?.trim_end_matches('.');
     Some(if AccelerationUnit::parse(word).is_some() { word } else { name })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_of_samples_name_their_unit() {
+        for (line, unit) in [
+            ("4000 points of accel data equally spaced at .005 sec, in cm/sec2. (8f10.6)", Some("cm/sec2")),
+            ("3251 POINTS OF ACCEL DATA EQUALLY SPACED AT  .020 SEC.  (UNITS: CM/SEC/SEC)", Some("CM/SEC/SEC")),
+            ("3251 points of accel data equally spaced at .020 sec. (units: g)", Some("g")),
+            ("3251 points of accel data equally spaced at .020 sec.", None),
+        ] {
+            assert_eq!(unit_name(line), unit, "{line}");
+        }
+    }
+}

@@ -13,7 +13,7 @@
 //! colon separates key and value.
 
 use super::header::{Entry, leading_number, seconds_of, tidy};
-use super::numbers::{Block, is_text, quote, words};
+use super::numbers::{Block, Word, comma_refused, has_decimal_comma, is_text, words};
 use super::record_file::{Format, PeakBounds, RecordFile, StatedPeak};
 use crate::error::RecordError;
 use crate::options::TextOptions;
@@ -134,22 +134,11 @@ fn rounding(value: &str) -> f64 {
     0.5 * 0.1_f64.powi(decimals as i32)
 }
 
-/// Largest number of characters of a sample that an error quotes.
-const MOST_QUOTED: usize = 40;
-
-/// A sign and digits.
-fn is_whole(text: &str) -> bool {
-    let digits = text.trim_start_matches(['+', '-']);
-    !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit())
-}
-
 /// Response spectra have the same header and rows of period and ordinate; histories have one number a row.
 fn refuse_spectrum(lines: &[&str], first: usize) -> Result<(), RecordError> {
-    let comma = |line: &&str| {
-        line.trim().split_once(',').is_some_and(|(whole, rest)| !rest.contains(char::is_whitespace) && is_whole(whole))
-    };
-    if let Some(text) = lines.get(first).filter(|line| comma(line)) {
-        return Err(RecordError::DecimalComma { line: first + 1, column: 1, text: quote(text.trim(), MOST_QUOTED) });
+    // A comma would make two columns of one.
+    if let Some(text) = lines.get(first).map(|line| line.trim()).filter(|row| has_decimal_comma(row)) {
+        return Err(comma_refused(first + 1, Word { column: 1, text }));
     }
     let mut rows = lines[first..].iter().map(|line| words(line).count()).filter(|columns| *columns > 0).peekable();
     if rows.peek().is_some() && rows.all(|columns| columns == 2) {

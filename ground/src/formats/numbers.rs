@@ -120,8 +120,8 @@ fn glued(text: &str, found: &mut Vec<f64>) -> Option<()> {
 /// # Errors
 /// [`RecordError::NotANumber`], [`RecordError::DecimalComma`]
 pub fn split(row: &str, line: usize) -> Result<Vec<f64>, RecordError> {
-    if let Some(Word { column, text }) = decimal_comma(row) {
-        return Err(RecordError::DecimalComma { line, column, text: quote(text, LONGEST_QUOTE) });
+    if let Some(word) = decimal_comma(row) {
+        return Err(comma_refused(line, word));
     }
     let mut found = Vec::new();
     for word in words(row) {
@@ -136,20 +136,26 @@ fn decimal_comma(row: &str) -> Option<Word<'_>> {
     if !row.contains(',') || row.contains('.') {
         return None;
     }
-    let is_decimal = |word: &str| {
-        let parts = word.trim_start_matches(['+', '-']).split_once(',');
-        parts.is_some_and(|(whole, rest)| {
-            !whole.is_empty()
-                && whole.bytes().all(|b| b.is_ascii_digit())
-                && rest.starts_with(|c: char| c.is_ascii_digit())
-                && !rest.contains(',')
-        })
-    };
     let mut words = row.split_whitespace();
-    let first = words.next().filter(|word| is_decimal(word))?;
+    let first = words.next().filter(|word| has_decimal_comma(word))?;
     let others: Vec<&str> = words.collect();
     let column = row.find(first).map_or(1, |at| row[..at].chars().count() + 1);
-    (!others.is_empty() && others.iter().all(|word| is_decimal(word))).then_some(Word { column, text: first })
+    (!others.is_empty() && others.iter().all(|word| has_decimal_comma(word))).then_some(Word { column, text: first })
+}
+
+/// Whether a word is a number with a decimal comma: digits on both sides of its only comma.
+pub fn has_decimal_comma(word: &str) -> bool {
+    word.trim_start_matches(['+', '-']).split_once(',').is_some_and(|(whole, rest)| {
+        !whole.is_empty()
+            && whole.bytes().all(|b| b.is_ascii_digit())
+            && rest.starts_with(|c: char| c.is_ascii_digit())
+            && !rest.contains(',')
+    })
+}
+
+/// The error that a word has a decimal comma.
+pub fn comma_refused(line: usize, word: Word) -> RecordError {
+    RecordError::DecimalComma { line, column: word.column, text: quote(word.text, LONGEST_QUOTE) }
 }
 
 /// The error that a word is no number.

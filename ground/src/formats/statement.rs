@@ -55,19 +55,22 @@ pub fn units<'t>(lines: impl Iterator<Item = (usize, &'t str)>) -> Vec<(usize, A
     lines.flat_map(|(line, text)| units_of(text).into_iter().map(move |unit| (line, unit))).collect()
 }
 
-/// The first of the units that a header states.
+/// The unit that a header states: of several the one that the options give, else the first.
 ///
 /// # Errors
-/// [`RecordError::Header`] if another one differs; with lenient options that is a warning.
+/// [`RecordError::Header`] if units differ and the options give none of them; with lenient options that is a warning.
 pub fn one_unit(
     stated: &[(usize, AccelerationUnit)],
     options: &TextOptions,
     warnings: &mut Vec<String>,
 ) -> Result<Option<(usize, AccelerationUnit)>, RecordError> {
+    if let Some(own) = stated.iter().find(|(_, unit)| options.units == Some(*unit)) {
+        return Ok(Some(*own));
+    }
     let Some(&(first, unit)) = stated.first() else { return Ok(None) };
     if let Some((line, other)) = stated.iter().find(|(_, other)| *other != unit) {
         let problem = format!("the unit {other} is stated, and {unit} in line {first}");
-        let remedy = "mend the wrong one, or take the first with `lenient`";
+        let remedy = "mend the wrong one, give `units`, or take the first with `lenient`";
         warnings.push(Entry { line: *line, text: "", remedy }.leniently(problem, options)?);
     }
     Ok(Some((first, unit)))
@@ -109,6 +112,15 @@ mod tests {
         ] {
             assert_eq!(of(text).as_deref(), Some(unit), "{text}");
         }
+        // Two of them: the user says which it is.
+        let (both, mut warnings) = (units([(1, "from cm/s2 in g")].into_iter()), Vec::new());
+        let mut one =
+            |options: TextOptions| one_unit(&both, &options, &mut warnings).map(|found| found.map(|found| found.1));
+        assert!(matches!(one(TextOptions::default()), Err(RecordError::Header { line: 1, .. })), "{both:?}");
+        for unit in [AccelerationUnit::G, AccelerationUnit::CentimetrePerSecondSquared] {
+            assert_eq!(one(TextOptions { units: Some(unit), ..TextOptions::default() }), Ok(Some(unit)));
+        }
+        assert_eq!(one(TextOptions { lenient: true, ..TextOptions::default() }), Ok(Some(both[0].1)));
         for text in ["station G", "peak 350 cm/s2", "PGA (g): 0.3", "velocity in m/s", ""] {
             assert_eq!(of(text), None, "{text}");
         }

@@ -349,7 +349,8 @@ class Scene:
     ) -> "Scene":
         """The scene with other arguments; ``keys`` takes dotted ones such as ``{"block[2].mass": 900.0}``.
 
-        Another column comes with its own gravity, 9.81 m/s² where it has none. None removes a key: ``friction=None`` gives the scene without friction, ``keys={"excitation.vertical": None}`` without vertical motion.
+        Another column comes with its own gravity, 9.81 m/s² where it has none. None removes a key: ``friction=None`` gives the scene without friction,
+        ``keys={"excitation.vertical": None}`` without vertical motion.
         """
         keys = self.keys
         if column is not None:

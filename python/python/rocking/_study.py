@@ -260,8 +260,7 @@ class Study:
             if count > 1:
                 warnings.warn(f"the rows of all {count} values of `{name}` make one curve; filter the table for those of one", stacklevel=stacklevel)
         if "truncated" in names:
-            standing = ~table["outcome"].isin(["overturns", "collapses", "error"])
-            cut = int((standing & (table["truncated"].astype("string").str.lower() == "true").fillna(False)).sum())
+            cut = int((table["truncated"].astype("string").str.lower() == "true").fillna(False).sum())
             if cut:
                 told = f"{cut} run(s) end before their ground motion, or with the energy to overturn (`truncated`), and count as standing"
                 warnings.warn(told, stacklevel=stacklevel)

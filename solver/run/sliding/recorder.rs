@@ -13,8 +13,7 @@ use crate::mechanics::dynamics::{ContactForce, Energy};
 use crate::mechanics::kinematics::Vec2;
 use crate::numerics::per_block::PerBlock;
 use crate::response::{
-    BlockAtEvent, BlockState, ContactTimes, Event, EventKind, Impulse, ModeName, Response, Sample, SlidingReport,
-    StopReason, Work,
+    BlockAtEvent, BlockState, ContactTimes, Event, Impulse, ModeName, Response, Sample, SlidingReport, StopReason, Work,
 };
 use crate::run::problem::Problem;
 use crate::run::recorder::USUAL_EVENTS;
@@ -149,7 +148,7 @@ impl<'p> SlidingRecorder<'p> {
     fn change(&mut self, t: f64, change: &Change) {
         let Change { kind, interfaces, before, after, impulses } = change;
         for (interface, flights) in self.report.flights.iter_mut().enumerate() {
-            let has_landed = *kind == EventKind::Landing && interfaces.contains(&interface);
+            let has_landed = kind.is_impact() && interfaces.contains(&interface);
             let was_free = before.joints[interface] == Joint::Free && !has_landed;
             *flights += usize::from(after.joints[interface] == Joint::Free && !was_free);
         }
