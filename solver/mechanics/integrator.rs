@@ -1,7 +1,7 @@
 //! The integrator of a mode: steps of one method over the equations of one mode, behind a trait object.
 //!
-//! [`Steps`] integrates, [`Forces`] knows mechanics. Each pair of method and mode is compiled separately; a run makes a few virtual calls per
-//! step. An integrator owns the state at the start of its next step and allocates nothing after it has been built.
+//! [`Steps`] integrates, [`Forces`] knows mechanics. Series and explicit methods are compiled for each mode's program; a run makes a few virtual
+//! calls per step. An integrator owns the state at the start of its next step and allocates nothing after it has been built.
 
 use super::dynamics::{ContactForce, Dynamics, Ground, Interfaces};
 use super::margins::{Margins, Opening};
@@ -145,9 +145,9 @@ impl<D: Dynamics> System for Driven<D> {
 }
 
 /// Steps of an explicit Runge-Kutta method.
-pub(crate) struct ExplicitSteps<D: Dynamics, M> {
+pub(crate) struct ExplicitSteps<D: Dynamics> {
     system: Driven<D>,
-    method: Explicit<D::State, M>,
+    method: Explicit<D::State>,
     control: StepControl,
     /// Length of all steps `[s]`, where the method has no step control.
     fixed: Option<f64>,
@@ -159,14 +159,14 @@ pub(crate) struct ExplicitSteps<D: Dynamics, M> {
     interpolants: [(Interpolant<D::State>, bool); 2],
 }
 
-impl<D: Dynamics, M: Tableau> ExplicitSteps<D, M> {
-    /// A method on a mode, with gravity `[m/s²]`; steps of fixed length `[s]` where one is given.
-    pub fn new(mode: Arc<D>, gravity: f64, fixed: Option<f64>) -> Self {
+impl<D: Dynamics> ExplicitSteps<D> {
+    /// The method of a tableau on a mode, with gravity `[m/s²]`; steps of fixed length `[s]` where one is given.
+    pub fn new(tableau: &'static Tableau, mode: Arc<D>, gravity: f64, fixed: Option<f64>) -> Self {
         let zero = mode.zero_state();
         ExplicitSteps {
             system: Driven::new(mode, gravity),
-            method: Explicit::new(&zero),
-            control: StepControl::new(M::ERROR_ORDER),
+            method: Explicit::new(tableau, &zero),
+            control: StepControl::new(tableau.error_order),
             fixed,
             start: zero.clone(),
             slope: zero.clone(),
@@ -185,10 +185,10 @@ impl<D: Dynamics, M: Tableau> ExplicitSteps<D, M> {
     }
 }
 
-impl<D: Dynamics, M: Tableau> Steps for ExplicitSteps<D, M> {
+impl<D: Dynamics> Steps for ExplicitSteps<D> {
     fn begin(&mut self, t: f64, x: &[f64]) {
         self.start.as_mut_slice().copy_from_slice(x);
-        self.system.slope_once(t, &self.start, &mut self.slope);
+        self.system.slope(t, &self.start, &mut self.slope);
     }
 
     fn start(&self) -> &[f64] {
@@ -264,7 +264,7 @@ impl<D: Dynamics, M: Tableau> Steps for ExplicitSteps<D, M> {
     }
 }
 
-impl<D: Dynamics + Send + Sync, M: Tableau> Forces for ExplicitSteps<D, M> {
+impl<D: Dynamics + Send + Sync> Forces for ExplicitSteps<D> {
     fn enter(&mut self, segment: &Segment) {
         self.system.segment.clone_from(segment);
     }

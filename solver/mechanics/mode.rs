@@ -6,8 +6,7 @@
 use super::dynamics::{ContactForce, Dynamics, Energy, Ground, Interfaces, StateVector};
 use super::integrator::{ExplicitSteps, Integrator, TaylorSteps};
 use crate::numerics::ode::control::{Part, TIGHTEST_RTOL, Tolerance};
-use crate::numerics::ode::explicit::Tableau;
-use crate::numerics::ode::methods::{ForTableau, Method};
+use crate::numerics::ode::methods::Method;
 use rocking_codegen::pattern::Pattern;
 use rocking_ground::Segment;
 use std::fmt;
@@ -119,21 +118,6 @@ trait Erased: Send + Sync {
     fn contact_forces(&self, x: &[f64], ground: Ground, forces: &mut [ContactForce]);
 }
 
-/// An integrator to be built for the tableau of a method.
-struct Building<D> {
-    mode: Arc<D>,
-    gravity: f64,
-    step: Option<f64>,
-}
-
-impl<D: Dynamics + Send + Sync + 'static> ForTableau for Building<D> {
-    type Built = Box<dyn Integrator>;
-
-    fn with<M: Tableau>(self) -> Box<dyn Integrator> {
-        Box::new(ExplicitSteps::<D, M>::new(self.mode, self.gravity, self.step))
-    }
-}
-
 fn state<D: Dynamics>(mode: &D, x: &[f64]) -> D::State {
     let mut state = mode.zero_state();
     state.as_mut_slice().copy_from_slice(x);
@@ -147,9 +131,9 @@ impl<D: Dynamics + Send + Sync + 'static> Erased for D {
 
     fn integrator(self: Arc<Self>, method: Method, gravity: f64, rtol: f64, step: f64) -> Box<dyn Integrator> {
         let step = (!method.has_step_control()).then_some(step);
-        match method.explicit(Building { mode: self, gravity, step }) {
-            Ok(integrator) => integrator,
-            Err(Building { mode, .. }) => Box::new(TaylorSteps::new(mode, gravity, rtol)),
+        match method.tableau() {
+            Some(tableau) => Box::new(ExplicitSteps::new(tableau, self, gravity, step)),
+            None => Box::new(TaylorSteps::new(self, gravity, rtol)),
         }
     }
 

@@ -1,12 +1,11 @@
 //! Explicit Runge-Kutta methods with an error estimate and dense output, one stepper for all of them.
 //!
-//! A method is data: the [`Tableau`] of its coefficients. The stepper is compiled for each tableau, so that every stage is straight-line code
-//! with its coefficients as literals.
+//! A method is data: the [`Tableau`] of its coefficients. The stepper is compiled once for each length of state, and reads them as it steps.
 
 use super::control::Tolerance;
 use super::interpolant::Interpolant;
 use crate::numerics::state_vector::StateVector;
-use std::marker::PhantomData;
+use std::ops::Range;
 
 /// A right-hand side `ẋ = f(t, x)`.
 pub trait System {
@@ -15,36 +14,31 @@ pub trait System {
 
     /// Writes `f(t, x)` into `slope`.
     fn slope(&mut self, t: f64, x: &Self::State, slope: &mut Self::State);
-
-    /// [`System::slope`], compiled once for all callers: for what is evaluated once a step or less. The stages of a step have it inlined, each.
-    #[inline(never)]
-    fn slope_once(&mut self, t: f64, x: &Self::State, slope: &mut Self::State) {
-        self.slope(t, x, slope);
-    }
 }
 
 /// Index of a stage and its weight.
 pub type Term = (usize, f64);
 
 /// The coefficients of an explicit method. Stages are counted from zero; stage 0 is the slope at the start of the step.
-pub trait Tableau: Send + Sync + 'static {
+#[derive(Debug)]
+pub struct Tableau {
     /// Order of the solution that is carried on.
     #[cfg_attr(not(test), expect(dead_code, reason = "a property of the method that its order test checks"))]
-    const ORDER: usize;
-    /// Order of the error estimate: the step size follows `error^(-1 / ERROR_ORDER)`.
-    const ERROR_ORDER: usize;
+    pub order: usize,
+    /// Order of the error estimate: the step size follows `error^(-1 / error_order)`.
+    pub error_order: usize,
     /// Time of each stage, as a share of the step.
-    const NODES: &'static [f64];
-    /// `x + h Σ weight · k[stage]` is the argument of each stage. Stages beyond [`Tableau::END_SLOPE`] serve the dense output only.
-    const STAGES: &'static [&'static [Term]];
+    pub nodes: &'static [f64],
+    /// `x + h Σ weight · k[stage]` is the argument of each stage. Stages beyond [`Tableau::end_slope`] serve the dense output only.
+    pub stages: &'static [&'static [Term]],
     /// `x + h Σ weight · k[stage]` is the end of the step.
-    const END: &'static [Term];
+    pub end: &'static [Term],
     /// The stage that is the slope at the end of the step: one more than the stages that the end needs.
-    const END_SLOPE: usize;
+    pub end_slope: usize,
     /// The error estimate.
-    const ERROR: ErrorEstimate;
+    pub error: ErrorEstimate,
     /// Terms of the dense output's nested form beyond the cubic through both ends.
-    const DENSE: &'static [&'static [Term]] = &[];
+    pub dense: &'static [&'static [Term]],
 }
 
 /// How a method estimates the error of a step: `h Σ weight · k[stage]`, relative to the tolerance.
@@ -70,32 +64,33 @@ const MAX_STAGES: usize = 16;
 
 /// An attempted step: start, end and the slopes of all stages.
 #[derive(Clone, Debug)]
-pub struct Explicit<V, M> {
+pub struct Explicit<V> {
+    tableau: &'static Tableau,
     t: f64,
     h: f64,
     x: V,
     end: V,
+    /// The argument of a stage, or an error estimate.
     inner: V,
     k: [V; MAX_STAGES],
-    method: PhantomData<M>,
 }
 
-impl<V: StateVector, M: Tableau> Explicit<V, M> {
+impl<V: StateVector> Explicit<V> {
     /// Storage for states like `zero`.
-    pub fn new(zero: &V) -> Self {
+    pub fn new(tableau: &'static Tableau, zero: &V) -> Self {
         Explicit {
+            tableau,
             t: 0.0,
             h: 0.0,
             x: zero.clone(),
             end: zero.clone(),
             inner: zero.clone(),
             k: std::array::from_fn(|_| zero.clone()),
-            method: PhantomData,
         }
     }
 
     /// Attempts a step of length `h` from `(t, x)`, where the slope is `slope`, and returns its error relative to
-    /// `tolerance`: at most one if the step is good. The result is [`Explicit::end`]. Compiled once for all callers: a method's stages are long.
+    /// `tolerance`: at most one if the step is good. The result is [`Explicit::end`]. Compiled once for all callers.
     #[inline(never)]
     pub fn attempt<S: System<State = V>>(
         &mut self,
@@ -109,9 +104,9 @@ impl<V: StateVector, M: Tableau> Explicit<V, M> {
         (self.t, self.h) = (t, h);
         self.x.clone_from(x);
         self.k[0].clone_from(slope);
-        self.stages(system, 1, M::END_SLOPE);
-        combine(&self.x, h, &self.k, M::END, &mut self.end);
-        match M::ERROR {
+        self.evaluate_stages(system, 1..self.tableau.end_slope);
+        advance(&self.x, h, &self.k, self.tableau.end, &mut self.end);
+        match self.tableau.error {
             ErrorEstimate::None if self.end.as_slice().iter().all(|value| value.is_finite()) => 0.0,
             ErrorEstimate::None => f64::NAN,
             ErrorEstimate::Embedded(terms) => self.root_mean_square(terms, tolerance),
@@ -120,7 +115,7 @@ impl<V: StateVector, M: Tableau> Explicit<V, M> {
                 self.root_mean_square(terms, tolerance)
             }
             ErrorEstimate::FifthAndThird { fifth, third } => {
-                let [fifth, third] = [self.sum_of_squares(fifth, tolerance), self.sum_of_squares(third, tolerance)];
+                let [fifth, third] = [fifth, third].map(|terms| self.sum_of_squares(terms, tolerance));
                 let denominator = fifth + 0.01 * third;
                 let count = self.x.as_slice().len() as f64;
                 if denominator == 0.0 { 0.0 } else { fifth / (denominator * count).sqrt() }
@@ -128,28 +123,16 @@ impl<V: StateVector, M: Tableau> Explicit<V, M> {
         }
     }
 
-    /// Evaluates the stages from `first` up to the one before `until`. Their numbers are literals, so that each compiles without loops.
-    #[inline(always)]
-    fn stages<S: System<State = V>>(&mut self, system: &mut S, first: usize, until: usize) {
-        macro_rules! each {
-            ($($stage:literal)*) => {$(
-                if $stage >= first && $stage < until {
-                    self.stage(system, $stage, const { row::<M>($stage) });
-                }
-            )*};
+    /// `k[stage] = f(t + node h, x + h Σ weight · k)` for each of these stages.
+    fn evaluate_stages<S: System<State = V>>(&mut self, system: &mut S, stages: Range<usize>) {
+        for stage in stages {
+            advance(&self.x, self.h, &self.k, self.tableau.stages[stage], &mut self.inner);
+            system.slope(self.t + self.tableau.nodes[stage] * self.h, &self.inner, &mut self.k[stage]);
         }
-        each!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15);
-    }
-
-    /// `k[stage] = f(t + node h, x + h Σ a k)`
-    #[inline(always)]
-    fn stage<S: System<State = V>>(&mut self, system: &mut S, stage: usize, terms: &'static [Term]) {
-        combine(&self.x, self.h, &self.k, terms, &mut self.inner);
-        system.slope(self.t + M::NODES[stage] * self.h, &self.inner, &mut self.k[stage]);
     }
 
     fn evaluate_end_slope<S: System<State = V>>(&mut self, system: &mut S) {
-        system.slope_once(self.t + self.h, &self.end, &mut self.k[M::END_SLOPE]);
+        system.slope(self.t + self.h, &self.end, &mut self.k[self.tableau.end_slope]);
     }
 
     /// State at the end of the last attempt.
@@ -160,69 +143,68 @@ impl<V: StateVector, M: Tableau> Explicit<V, M> {
     /// Accepts the last attempt: evaluates the slope at its end, if the error estimate has not done so. To be called before
     /// [`Explicit::end_slope`] and [`Explicit::interpolate`].
     pub fn accept<S: System<State = V>>(&mut self, system: &mut S) {
-        if !matches!(M::ERROR, ErrorEstimate::EmbeddedWithEndSlope(_)) {
+        if !matches!(self.tableau.error, ErrorEstimate::EmbeddedWithEndSlope(_)) {
             self.evaluate_end_slope(system);
         }
     }
 
     /// Slope at the end of the last attempt; valid after [`Explicit::accept`].
     pub fn end_slope(&self) -> &V {
-        &self.k[M::END_SLOPE]
+        &self.k[self.tableau.end_slope]
     }
 
     /// Writes the dense output of the last attempt into `interpolant`.
     pub fn interpolate<S: System<State = V>>(&mut self, system: &mut S, interpolant: &mut Interpolant<V>) {
-        self.stages(system, M::END_SLOPE + 1, M::STAGES.len());
+        self.evaluate_stages(system, self.tableau.end_slope + 1..self.tableau.stages.len());
         interpolant.hermite(self.t, self.h, &self.x, &self.end, &self.k[0], self.end_slope());
-        for (place, terms) in M::DENSE.iter().enumerate() {
-            for (i, value) in interpolant.beyond_cubic(place).as_mut_slice().iter_mut().enumerate() {
-                *value = self.weighted(terms, i);
-            }
+        for (place, terms) in self.tableau.dense.iter().enumerate() {
+            increment(self.h, &self.k, terms, interpolant.beyond_cubic(place));
         }
-    }
-
-    /// `h Σ weight · k[stage]` of one component.
-    #[inline(always)]
-    fn weighted(&self, terms: &[Term], i: usize) -> f64 {
-        let mut sum = 0.0;
-        for &(stage, weight) in terms {
-            sum += weight * self.k[stage].as_slice()[i];
-        }
-        self.h * sum
     }
 
     /// Sum of the squares of an error estimate relative to the tolerance.
-    #[inline(always)]
-    fn sum_of_squares(&self, terms: &[Term], tolerance: Tolerance) -> f64 {
+    fn sum_of_squares(&mut self, terms: &[Term], tolerance: Tolerance) -> f64 {
+        increment(self.h, &self.k, terms, &mut self.inner);
         let mut sum = 0.0;
-        for i in 0..self.x.as_slice().len() {
-            let error = self.weighted(terms, i) / tolerance.scale(self.x.as_slice()[i], self.end.as_slice()[i]);
+        for ((estimate, x), end) in self.inner.as_slice().iter().zip(self.x.as_slice()).zip(self.end.as_slice()) {
+            let error = estimate / tolerance.scale(*x, *end);
             sum += error * error;
         }
         sum
     }
 
-    #[inline(always)]
-    fn root_mean_square(&self, terms: &[Term], tolerance: Tolerance) -> f64 {
+    fn root_mean_square(&mut self, terms: &[Term], tolerance: Tolerance) -> f64 {
         (self.sum_of_squares(terms, tolerance) / self.x.as_slice().len() as f64).sqrt()
     }
 }
 
-/// The terms of a stage; none beyond the last one.
-const fn row<M: Tableau>(stage: usize) -> &'static [Term] {
-    if stage < M::STAGES.len() { M::STAGES[stage] } else { &[] }
+/// Writes `Σ weight · k[stage]` into `out`, term by term for all components at once.
+#[inline(always)]
+fn weighted_sum<V: StateVector>(k: &[V; MAX_STAGES], terms: &[Term], out: &mut V) {
+    let out = out.as_mut_slice();
+    out.fill(0.0);
+    for &(stage, weight) in terms {
+        for (out, slope) in out.iter_mut().zip(k[stage].as_slice()) {
+            *out += weight * slope;
+        }
+    }
 }
 
 /// Writes `x + h Σ weight · k[stage]` into `out`.
 #[inline(always)]
-fn combine<V: StateVector>(x: &V, h: f64, k: &[V], terms: &[Term], out: &mut V) {
-    let x = x.as_slice();
-    for (i, out) in out.as_mut_slice().iter_mut().enumerate() {
-        let mut sum = 0.0;
-        for &(stage, weight) in terms {
-            sum += weight * k[stage].as_slice()[i];
-        }
-        *out = x[i] + h * sum;
+fn advance<V: StateVector>(x: &V, h: f64, k: &[V; MAX_STAGES], terms: &[Term], out: &mut V) {
+    weighted_sum(k, terms, out);
+    for (out, x) in out.as_mut_slice().iter_mut().zip(x.as_slice()) {
+        *out = x + h * *out;
+    }
+}
+
+/// Writes `h Σ weight · k[stage]` into `out`.
+#[inline(always)]
+fn increment<V: StateVector>(h: f64, k: &[V; MAX_STAGES], terms: &[Term], out: &mut V) {
+    weighted_sum(k, terms, out);
+    for out in out.as_mut_slice() {
+        *out *= h;
     }
 }
 
@@ -230,7 +212,7 @@ fn combine<V: StateVector>(x: &V, h: f64, k: &[V], terms: &[Term], out: &mut V) 
 mod tests {
     use super::*;
     use crate::numerics::ode::tableaus::{
-        dop853::Dop853, dormand_prince54::DormandPrince54, kutta_merson::KuttaMerson, runge_kutta4::RungeKutta4,
+        dop853::DOP853, dormand_prince54::DORMAND_PRINCE54, kutta_merson::KUTTA_MERSON, runge_kutta4::RUNGE_KUTTA4,
     };
 
     /// `ẋ = t^n`: a method of order p is exact for n < p.
@@ -255,8 +237,8 @@ mod tests {
 
     const LOOSE: Tolerance = Tolerance { rtol: 1.0, atol: 1.0 };
 
-    fn advance<M: Tableau>(steps: usize) -> [f64; 2] {
-        let mut method = Explicit::<_, M>::new(&[0.0; 2]);
+    fn end_of(tableau: &'static Tableau, steps: usize) -> [f64; 2] {
+        let mut method = Explicit::new(tableau, &[0.0; 2]);
         let (mut x, h) = ([1.0, 0.0], 12.0 / steps as f64);
         let mut slope = [0.0; 2];
         for step in 0..steps {
@@ -269,27 +251,27 @@ mod tests {
     }
 
     /// Magnitude of the observed order minus the stated order.
-    fn order_error<M: Tableau>(steps: usize) -> f64 {
-        let exact = advance::<Dop853>(800);
+    fn order_error(tableau: &'static Tableau, steps: usize) -> f64 {
+        let exact = end_of(&DOP853, 800);
         let error = |steps: usize| {
-            let end = advance::<M>(steps);
+            let end = end_of(tableau, steps);
             (end[0] - exact[0]).hypot(end[1] - exact[1])
         };
-        ((error(steps) / error(2 * steps)).log2() - M::ORDER as f64).abs()
+        ((error(steps) / error(2 * steps)).log2() - tableau.order as f64).abs()
     }
 
     #[test]
     fn observed_order_is_the_stated_one() {
         // Measured 3.9 and 4.0 for order 4, 5.12 for order 5, 8.04 for order 8: the next term of the error is a few per cent at these steps.
-        assert!(order_error::<KuttaMerson>(128) < 0.2);
-        assert!(order_error::<RungeKutta4>(128) < 0.2);
-        assert!(order_error::<DormandPrince54>(128) < 0.2);
-        assert!(order_error::<Dop853>(28) < 0.2);
+        assert!(order_error(&KUTTA_MERSON, 128) < 0.2);
+        assert!(order_error(&RUNGE_KUTTA4, 128) < 0.2);
+        assert!(order_error(&DORMAND_PRINCE54, 128) < 0.2);
+        assert!(order_error(&DOP853, 28) < 0.2);
     }
 
     /// Errors of the end and of the dense output for `ẋ = t^power`.
-    fn power_error<M: Tableau>(power: usize) -> (f64, f64) {
-        let (mut method, mut system) = (Explicit::<_, M>::new(&[0.0]), Power(power as i32));
+    fn power_error(tableau: &'static Tableau, power: usize) -> (f64, f64) {
+        let (mut method, mut system) = (Explicit::new(tableau, &[0.0]), Power(power as i32));
         // From t = 0.5, so that no node falls on zero.
         let (t, h, start) = (0.5, 1.5, [0.0]);
         let slope = [0.5f64.powi(power as i32)];
@@ -308,14 +290,14 @@ mod tests {
     /// values up to 2^8 / 8.
     #[test]
     fn polynomials_are_integrated_exactly_up_to_the_order() {
-        assert!(power_error::<KuttaMerson>(3).0 < 1e-13);
-        assert!(power_error::<KuttaMerson>(2).1 < 1e-13);
-        assert!(power_error::<RungeKutta4>(3).0 < 1e-13);
-        assert!(power_error::<RungeKutta4>(2).1 < 1e-13);
-        assert!(power_error::<DormandPrince54>(4).0 < 1e-13);
-        assert!(power_error::<DormandPrince54>(3).1 < 1e-13);
-        assert!(power_error::<Dop853>(7).0 < 1e-12);
-        assert!(power_error::<Dop853>(6).1 < 1e-12);
-        assert!(power_error::<DormandPrince54>(6).0 > 1e-6, "the test must be able to fail");
+        assert!(power_error(&KUTTA_MERSON, 3).0 < 1e-13);
+        assert!(power_error(&KUTTA_MERSON, 2).1 < 1e-13);
+        assert!(power_error(&RUNGE_KUTTA4, 3).0 < 1e-13);
+        assert!(power_error(&RUNGE_KUTTA4, 2).1 < 1e-13);
+        assert!(power_error(&DORMAND_PRINCE54, 4).0 < 1e-13);
+        assert!(power_error(&DORMAND_PRINCE54, 3).1 < 1e-13);
+        assert!(power_error(&DOP853, 7).0 < 1e-12);
+        assert!(power_error(&DOP853, 6).1 < 1e-12);
+        assert!(power_error(&DORMAND_PRINCE54, 6).0 > 1e-6, "the test must be able to fail");
     }
 }

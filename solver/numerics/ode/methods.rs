@@ -1,13 +1,14 @@
-//! The list of methods. An explicit method is a file with its [`Tableau`](super::explicit::Tableau) in `tableaus/`, declared there, and one line of the list here.
+//! The list of methods. An explicit method is a file with its [`Tableau`] in `tableaus/`, declared there, and one line of the list here.
 
+use super::explicit::{ErrorEstimate, Tableau};
 use super::tableaus::{
-    dop853::Dop853, dormand_prince54::DormandPrince54, kutta_merson::KuttaMerson, runge_kutta4::RungeKutta4,
+    dop853::DOP853, dormand_prince54::DORMAND_PRINCE54, kutta_merson::KUTTA_MERSON, runge_kutta4::RUNGE_KUTTA4,
 };
 use serde::{Deserialize, Serialize};
 
-/// Declares [`Method`] and [`Method::explicit`] from the list of explicit methods: name in scene files, tableau, step control, doc.
+/// Declares [`Method`] and [`Method::tableau`] from the list of explicit methods: doc, name in scene files, tableau.
 macro_rules! methods {
-    ($($(#[$doc:meta])* $method:ident, $name:literal, $has_step_control:literal;)*) => {
+    ($($(#[$doc:meta])* $method:ident, $name:literal, $tableau:ident;)*) => {
         /// Integration method.
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
         #[serde(rename_all = "kebab-case")]
@@ -35,19 +36,11 @@ macro_rules! methods {
                 }
             }
 
-            /// Whether the method chooses the length of its steps by the tolerances.
-            pub fn has_step_control(self) -> bool {
+            /// Coefficients of an explicit method; `None` for a Taylor series.
+            pub(crate) fn tableau(self) -> Option<&'static Tableau> {
                 match self {
-                    $(Method::$method => $has_step_control,)*
-                    Method::Auto | Method::Taylor => true,
-                }
-            }
-
-            /// Calls `build` with the tableau of an explicit method. For a Taylor series, returns `build` itself as the error.
-            pub(crate) fn explicit<B: ForTableau>(self, build: B) -> Result<B::Built, B> {
-                match self {
-                    $(Method::$method => Ok(build.with::<$method>()),)*
-                    Method::Auto | Method::Taylor => Err(build),
+                    $(Method::$method => Some(&$tableau),)*
+                    Method::Auto | Method::Taylor => None,
                 }
             }
         }
@@ -56,24 +49,21 @@ macro_rules! methods {
 
 methods! {
     /// Order 8(5,3), dense output of order 7.
-    Dop853, "dop853", true;
+    Dop853, "dop853", DOP853;
     /// Dormand & Prince 5(4), for comparison. Under records and at tolerances above 1e-5 its run time comes close to that of Taylor series.
-    DormandPrince54, "dormand-prince54", true;
+    DormandPrince54, "dormand-prince54", DORMAND_PRINCE54;
     /// Merson's method of order 4, the paper's, for comparison.
-    KuttaMerson, "kutta-merson", true;
+    KuttaMerson, "kutta-merson", KUTTA_MERSON;
     /// The classic method of order 4 with steps of fixed length, for comparison; the tolerances have no effect.
-    RungeKutta4, "rk4", false;
-}
-
-/// Work that is compiled for the tableau of a method.
-pub(crate) trait ForTableau {
-    /// What `with` returns.
-    type Built;
-    /// Does the work for one tableau.
-    fn with<M: super::explicit::Tableau>(self) -> Self::Built;
+    RungeKutta4, "rk4", RUNGE_KUTTA4;
 }
 
 impl Method {
+    /// Whether the method chooses the length of its steps by the tolerances.
+    pub fn has_step_control(self) -> bool {
+        self.tableau().is_none_or(|tableau| !matches!(tableau.error, ErrorEstimate::None))
+    }
+
     /// The method that takes the steps: [`Method::Auto`] takes them by Taylor series, where no closed form or multi-sample step applies.
     pub fn stepper(self) -> Method {
         if self == Method::Auto { Method::Taylor } else { self }

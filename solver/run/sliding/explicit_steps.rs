@@ -16,9 +16,9 @@ use std::ops::ControlFlow;
 /// Longest step, in radians of the ground motion: guards of forces are sampled in a step, and no coordinate may feel what they follow.
 const LONGEST_TURN: f64 = 2.0;
 
-/// Steps of the method with the tableau `M`.
-pub struct ExplicitSteps<M> {
-    method: Explicit<Vec<f64>, M>,
+/// Steps of one explicit method.
+pub struct ExplicitSteps {
+    method: Explicit<Vec<f64>>,
     interpolant: Interpolant<Vec<f64>>,
     slope: Vec<f64>,
     control: StepControl,
@@ -28,25 +28,31 @@ pub struct ExplicitSteps<M> {
     suggested: f64,
 }
 
-impl<'p, M: Tableau> Steps<'p> for ExplicitSteps<M> {
-    type Output<'s>
-        = &'s Interpolant<Vec<f64>>
-    where
-        M: 's;
-
-    fn new(problem: &'p Problem<'p>, smooth: &Smooth<'p>, from: &SlidingState, suggested: f64) -> Self {
+impl ExplicitSteps {
+    /// A method for the states `from`; `suggested` is the length of the first step `[s]`, where the method has step control.
+    pub fn new(
+        tableau: &'static Tableau,
+        problem: &Problem,
+        smooth: &Smooth,
+        from: &SlidingState,
+        suggested: f64,
+    ) -> Self {
         let (options, x) = (&problem.scene.options, smooth.state(&from.configuration));
         let fixed = (!options.method.has_step_control()).then_some(options.step);
         ExplicitSteps {
-            method: Explicit::new(&x),
+            method: Explicit::new(tableau, &x),
             interpolant: Interpolant::new(&x),
             slope: x,
-            control: StepControl::new(M::ERROR_ORDER),
+            control: StepControl::new(tableau.error_order),
             tolerance: problem.tolerance,
             fixed,
             suggested: fixed.unwrap_or(suggested),
         }
     }
+}
+
+impl<'p> Steps<'p> for ExplicitSteps {
+    type Output<'s> = &'s Interpolant<Vec<f64>>;
 
     fn step(
         &mut self,

@@ -11,8 +11,7 @@ use super::steps::{StepStart, Steps};
 use crate::column::Column;
 use crate::friction::contact_problem::Coefficients;
 use crate::friction::guards;
-use crate::numerics::ode::explicit::Tableau;
-use crate::numerics::ode::methods::{ForTableau, Method};
+use crate::numerics::ode::methods::Method;
 use crate::response::Work;
 use crate::run::error::SolveError;
 use crate::run::event_loop::{STRETCHES_BETWEEN_REPORTS, report};
@@ -82,22 +81,6 @@ impl SegmentTime {
     }
 }
 
-/// A phase to be integrated by the tableau of a method.
-struct Passing<'m, 'p> {
-    mover: &'m mut Mover<'p>,
-    from: &'m SlidingState,
-    recorder: &'m mut SlidingRecorder<'p>,
-    progress: &'m mut dyn FnMut(f64) -> ControlFlow<()>,
-}
-
-impl ForTableau for Passing<'_, '_> {
-    type Built = Result<(SlidingState, SlidingEnded), SolveError>;
-
-    fn with<M: Tableau>(self) -> Self::Built {
-        self.mover.steps::<ExplicitSteps<M>>(self.from, self.recorder, self.progress)
-    }
-}
-
 impl<'p> Mover<'p> {
     pub fn new(problem: &'p Problem<'p>, friction: &'p Coefficients) -> Mover<'p> {
         Mover { problem, friction, pace: None, work: Work::default() }
@@ -126,9 +109,16 @@ impl<'p> Mover<'p> {
             Method::Taylor if options.dynamics == DynamicsSource::Generic => Method::Dop853,
             method => method,
         };
-        match method.explicit(Passing { mover: self, from, recorder, progress }) {
-            Ok(result) => result,
-            Err(Passing { mover, from, recorder, progress }) => mover.steps::<SeriesSteps>(from, recorder, progress),
+        let (smooth, suggested) = (self.smooth(from), self.pace.unwrap_or(FIRST_STEP));
+        match method.tableau() {
+            Some(tableau) => {
+                let method = ExplicitSteps::new(tableau, self.problem, &smooth, from, suggested);
+                self.steps(method, smooth, from, recorder, progress)
+            }
+            None => {
+                let method = SeriesSteps::new(self.problem, &smooth, from, suggested);
+                self.steps(method, smooth, from, recorder, progress)
+            }
         }
     }
 
@@ -170,14 +160,14 @@ impl<'p> Mover<'p> {
     /// Steps until a guard falls to zero, the ground jumps, or the time is over.
     fn steps<S: Steps<'p>>(
         &mut self,
+        mut method: S,
+        mut smooth: Smooth<'p>,
         from: &SlidingState,
         recorder: &mut SlidingRecorder<'p>,
         progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<(SlidingState, SlidingEnded), SolveError> {
         let problem = self.problem;
         let list = guards::guards(&from.configuration.joints, &self.friction.kinetic);
-        let mut smooth = self.smooth(from);
-        let mut method = S::new(problem, &smooth, from, self.pace.unwrap_or(FIRST_STEP));
         let mut at = SegmentTime { t: from.t, segment: from.segment };
         let (mut x, mut longest) = (smooth.state(&from.configuration), f64::INFINITY);
         self.work.phases += 1;

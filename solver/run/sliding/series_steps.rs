@@ -34,13 +34,9 @@ pub struct SeriesSteps<'p> {
     suggested: f64,
 }
 
-impl<'p> Steps<'p> for SeriesSteps<'p> {
-    type Output<'s>
-        = SeriesSpan<'s>
-    where
-        'p: 's;
-
-    fn new(problem: &'p Problem<'p>, smooth: &Smooth<'p>, from: &SlidingState, suggested: f64) -> Self {
+impl<'p> SeriesSteps<'p> {
+    /// Series for the states `from`; `suggested` is the length of the first step `[s]`.
+    pub fn new(problem: &'p Problem<'p>, smooth: &Smooth<'p>, from: &SlidingState, suggested: f64) -> Self {
         SeriesSteps {
             problem,
             series: Series::new(smooth.column, &from.configuration, &smooth.friction.kinetic),
@@ -49,6 +45,13 @@ impl<'p> Steps<'p> for SeriesSteps<'p> {
             suggested,
         }
     }
+}
+
+impl<'p> Steps<'p> for SeriesSteps<'p> {
+    type Output<'s>
+        = SeriesSpan<'s>
+    where
+        'p: 's;
 
     fn step(
         &mut self,

@@ -1,12 +1,11 @@
 //! What a method offers to move a column with friction: steps over the equations of one set of states, with their dense output.
 
 use super::smooth::Smooth;
-use super::state::{SlidingEnded, SlidingState};
+use super::state::SlidingEnded;
 use super::step::{Output, StepEnd};
 use crate::friction::guards::Guard;
 use crate::response::Work;
 use crate::run::error::SolveError;
-use crate::run::problem::Problem;
 use std::ops::ControlFlow;
 
 /// Where a step starts, and how long it may be.
@@ -27,9 +26,6 @@ pub trait Steps<'p> {
     type Output<'s>: Output
     where
         Self: 's;
-
-    /// The method for the states `from`; `suggested` is the length of the first step `[s]`, where the method has step control.
-    fn new(problem: &'p Problem<'p>, smooth: &Smooth<'p>, from: &SlidingState, suggested: f64) -> Self;
 
     /// Takes a step within the tolerance and returns its length `[s]`; or why there is none.
     ///

@@ -3,16 +3,13 @@
 //!
 //! Coefficients: Hairer's `dop853.f`, as in Solving Ordinary Differential Equations I, section II.5 and appendix.
 
-use super::super::explicit::{ErrorEstimate, Tableau, Term};
+use super::super::explicit::{ErrorEstimate, Tableau};
 
 /// The tableau.
-#[derive(Clone, Copy, Debug)]
-pub struct Dop853;
-
-impl Tableau for Dop853 {
-    const ORDER: usize = 8;
-    const ERROR_ORDER: usize = 8;
-    const NODES: &'static [f64] = &[
+pub static DOP853: Tableau = Tableau {
+    order: 8,
+    error_order: 8,
+    nodes: &[
         0.0,
         0.05260015195876773,
         0.0789002279381516,
@@ -29,8 +26,8 @@ impl Tableau for Dop853 {
         0.1,
         0.2,
         0.7777777777777778,
-    ];
-    const STAGES: &'static [&'static [Term]] = &[
+    ],
+    stages: &[
         &[],
         &[(0, 0.05260015195876773)],
         &[(0, 0.0197250569845379), (1, 0.0591751709536137)],
@@ -115,8 +112,8 @@ impl Tableau for Dop853 {
             (13, 2.9475147891527724),
             (14, -9.15095847217987),
         ],
-    ];
-    const END: &'static [Term] = &[
+    ],
+    end: &[
         (0, 0.054293734116568765),
         (5, 4.450312892752409),
         (6, 1.8915178993145003),
@@ -125,9 +122,9 @@ impl Tableau for Dop853 {
         (9, -0.1521609496625161),
         (10, 0.20136540080403034),
         (11, 0.04471061572777259),
-    ];
-    const END_SLOPE: usize = 12;
-    const ERROR: ErrorEstimate = ErrorEstimate::FifthAndThird {
+    ],
+    end_slope: 12,
+    error: ErrorEstimate::FifthAndThird {
         fifth: &[
             (0, 0.01312004499419488),
             (5, -1.2251564463762044),
@@ -148,8 +145,8 @@ impl Tableau for Dop853 {
             (10, 0.20136540080403034),
             (11, 0.02265179219836082),
         ],
-    };
-    const DENSE: &'static [&'static [Term]] = &[
+    },
+    dense: &[
         &[
             (0, -8.428938276109013),
             (5, 0.5667149535193777),
@@ -206,5 +203,5 @@ impl Tableau for Dop853 {
             (14, -39.17726167561544),
             (15, -149.72683625798564),
         ],
-    ];
-}
+    ],
+};

@@ -3,18 +3,16 @@
 //!
 //! Coefficients: Kutta (1901). Dense output: the cubic through both ends, of order 3.
 
-use super::super::explicit::{ErrorEstimate, Tableau, Term};
+use super::super::explicit::{ErrorEstimate, Tableau};
 
 /// The tableau.
-#[derive(Clone, Copy, Debug)]
-pub struct RungeKutta4;
-
-impl Tableau for RungeKutta4 {
-    const ORDER: usize = 4;
-    const ERROR_ORDER: usize = 5;
-    const NODES: &'static [f64] = &[0.0, 0.5, 0.5, 1.0];
-    const STAGES: &'static [&'static [Term]] = &[&[], &[(0, 0.5)], &[(1, 0.5)], &[(2, 1.0)]];
-    const END: &'static [Term] = &[(0, 1.0 / 6.0), (1, 1.0 / 3.0), (2, 1.0 / 3.0), (3, 1.0 / 6.0)];
-    const END_SLOPE: usize = 4;
-    const ERROR: ErrorEstimate = ErrorEstimate::None;
-}
+pub static RUNGE_KUTTA4: Tableau = Tableau {
+    order: 4,
+    error_order: 5,
+    nodes: &[0.0, 0.5, 0.5, 1.0],
+    stages: &[&[], &[(0, 0.5)], &[(1, 0.5)], &[(2, 1.0)]],
+    end: &[(0, 1.0 / 6.0), (1, 1.0 / 3.0), (2, 1.0 / 3.0), (3, 1.0 / 6.0)],
+    end_slope: 4,
+    error: ErrorEstimate::None,
+    dense: &[],
+};
