@@ -25,6 +25,7 @@ use super::joint::{Configuration, Joint, Sign, Slip};
 use super::rows::{Answer, Rows};
 use crate::column::Column;
 use crate::mechanics::dynamics::Ground;
+use crate::mechanics::kinematics::relative;
 use crate::numerics::per_block::PerBlock;
 use std::cell::OnceCell;
 
@@ -157,30 +158,101 @@ impl<'a> Search<'a> {
 
     /// The states that follow; the search begins with the states `first`. `None` if no states are admissible.
     pub fn solve_from(&self, first: PerBlock<Joint>) -> Option<Solution> {
-        self.solve_with_slides(first).map(|found| self.with_fewest_slides(found))
+        let found = self.solve_with_slides(first.clone())?;
+        if matches!(self.question, Question::Impact(_)) || found.joints == first {
+            return Some(found);
+        }
+        Some(self.with_flat_slides(self.with_fewest_slides(found)))
     }
 
-    /// Where kinetic friction is less than static friction, contacts may slide together of which one alone would do: the others stick, as far as the states
-    /// are admissible then, which are fewer changes. Both being admissible, the instant is ambiguous.
+    /// Where kinetic friction is less than static friction, contacts may slide of which others would do, or fewer. Of the slides that may begin instead,
+    /// those with the fewest changes hold, then those with the least energy of the change. Several being admissible, the instant is ambiguous.
     fn with_fewest_slides(&self, mut found: Solution) -> Solution {
         let Coefficients { fixed, kinetic } = self.friction;
-        if matches!(self.question, Question::Impact(_)) || fixed == kinetic {
+        let begun = |joints: &[Joint]| (0..joints.len()).filter(|i| self.begins_to_slide(joints, *i)).count();
+        if fixed == kinetic {
             return found;
         }
-        for interface in 0..found.joints.len() {
-            let mut joints = found.joints.clone();
-            joints[interface] = match joints[interface] {
-                _ if self.given_slip(interface).is_some() => continue,
-                Joint::Closed(Slip::Slides(_)) => Joint::Closed(Slip::Sticks),
-                Joint::Corner(side, _, Slip::Slides(_)) => self.corner(interface, side, Slip::Sticks),
-                _ => continue,
+        let solution = |joints: PerBlock<Joint>| {
+            let answer = self.answer(&joints)?;
+            let is_clear = self.is_admissible(&joints, &answer, self.slack.margin());
+            is_clear.then_some(Solution { joints, answer, is_ambiguous: true })
+        };
+        let cost = |solution: &Solution| (begun(&solution.joints), solution.answer.change.energy(self.column));
+        loop {
+            let others = self.other_slides(&found.joints).into_iter().filter_map(solution);
+            let best = others.min_by(|a, b| {
+                let ((slides, energy), (fewest, least)) = (cost(a), cost(b));
+                slides.cmp(&fewest).then(energy.total_cmp(&least))
+            });
+            match best {
+                Some(best) if cost(&best) < cost(&found) => found = best,
+                Some(_) => return Solution { is_ambiguous: true, ..found },
+                None => return found,
+            }
+        }
+    }
+
+    /// Whether an interface that is at rest along its contact starts to slide.
+    fn begins_to_slide(&self, joints: &[Joint], interface: usize) -> bool {
+        matches!(joints[interface].slip(), Some(Slip::Slides(_))) && self.given_slip(interface).is_none()
+    }
+
+    /// The states with other slides that begin, as many together as in these states or fewer. With more than [`MOST_BLOCKS_TRIED`] interfaces, those in
+    /// which one of the slides sticks.
+    fn other_slides(&self, joints: &[Joint]) -> Vec<PerBlock<Joint>> {
+        let (count, mut sticking) = (joints.len(), PerBlock::from_slice(joints));
+        let begun: Vec<usize> = (0..count).filter(|i| self.begins_to_slide(joints, *i)).collect();
+        if count > MOST_BLOCKS_TRIED {
+            let with_one_stuck = |&interface: &usize| {
+                let mut others = sticking.clone();
+                others[interface] = self.with_slip(interface, joints[interface], Slip::Sticks);
+                others
             };
+            return begun.iter().map(with_one_stuck).collect();
+        }
+        begun.iter().for_each(|&i| sticking[i] = self.with_slip(i, joints[i], Slip::Sticks));
+        // Each state with the number of its slides.
+        let mut all = vec![(sticking, 0)];
+        for interface in (0..count).filter(|i| joints[*i].slip().is_some() && self.given_slip(*i).is_none()) {
+            for known in 0..all.len() {
+                let (states, slides) = all[known].clone();
+                for direction in [1, -1].into_iter().filter(|_| slides < begun.len()) {
+                    let mut states = states.clone();
+                    states[interface] = self.with_slip(interface, states[interface], Slip::Slides(direction));
+                    all.push((states, slides + 1));
+                }
+            }
+        }
+        all.into_iter().map(|(states, _)| states).filter(|states| states[..] != *joints).collect()
+    }
+
+    /// Flat faces that begin to slide stay closed where they would open without an acceleration: that is rounding.
+    fn with_flat_slides(&self, mut found: Solution) -> Solution {
+        for interface in 0..found.joints.len() {
+            let Joint::Corner(side, _, slip @ Slip::Slides(_)) = found.joints[interface] else { continue };
+            let opening = f64::from(side) * relative(&found.answer.motion.omega, interface);
+            let goes_on = self.now.joints[interface] == Joint::Closed(slip);
+            if self.touch[interface] != Touch::Faces || goes_on || opening > self.slack.angular {
+                continue;
+            }
+            let mut joints = found.joints.clone();
+            joints[interface] = Joint::Closed(slip);
             let answer = self.answer(&joints);
-            if let Some(answer) = answer.filter(|answer| self.is_admissible(&joints, answer, self.slack.margin())) {
-                found = Solution { joints, answer, is_ambiguous: true };
+            if let Some(answer) = answer.filter(|answer| self.is_admissible(&joints, answer, self.slack)) {
+                found = Solution { joints, answer, ..found };
             }
         }
         found
+    }
+
+    /// A state with another slip.
+    fn with_slip(&self, interface: usize, joint: Joint, slip: Slip) -> Joint {
+        match joint {
+            Joint::Closed(_) => Joint::Closed(slip),
+            Joint::Corner(side, ..) => self.corner(interface, side, slip),
+            Joint::Free => Joint::Free,
+        }
     }
 
     /// The states `before` with the state of one interface that a guard has named, if they are admissible. The instant of the guard's zero is known to the

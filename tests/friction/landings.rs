@@ -4,7 +4,7 @@ use super::{GRAVITY, run, scene};
 use approx::assert_relative_eq;
 use rocking::ground::Motion;
 use rocking::response::Event;
-use rocking::{Block, DynamicsSource, EventKind, Method, Restitution, Scene, StopReason};
+use rocking::{Block, DynamicsSource, EventKind, Method, Response, Restitution, Scene, StopReason};
 use std::f64::consts::{PI, TAU};
 
 /// Housner's landing sticks if `μ ≥ 3t/(4 + t²)`.
@@ -411,5 +411,35 @@ fn landings_that_differ_by_rounding_are_one() {
             // Places of 100 m are rounded to 1e-14 m.
             assert_relative_eq!(*one, *other, max_relative = 1e-11);
         }
+    }
+}
+
+/// A block that lands on a corner transmits no moment there: restitution is of faces that close (docs/book/model.md, section 17). It turns about the corner
+/// at the plastic rate, and rebounds when its face closes; its largest slide is where it has landed and sticks.
+#[test]
+fn a_corner_that_lands_does_not_rebound() {
+    let dropped = |factor: Option<f64>| {
+        let mut scene = scene(vec![Block::rectangle(0.5, 0.4, 1.0)], vec![1.2]);
+        scene.restitution = factor.map_or(Restitution::Plastic, |factor| Restitution::Factors(vec![factor]));
+        (scene.initial.theta, scene.initial.omega) = (vec![0.1], vec![0.0]);
+        (scene.initial.x, scene.initial.y) = (vec![0.0], vec![0.5]);
+        (scene.initial.vx, scene.initial.vy) = (vec![0.0], vec![0.0]);
+        scene.options.t_end = 0.5;
+        run(&scene)
+    };
+    let rate = |response: &Response, kind| {
+        let event = response.events.iter().find(|event| event.kind == kind).expect("it happens");
+        event.omega_after[0]
+    };
+    let plastic = dropped(None);
+    for factor in [0.0, 0.5] {
+        let rebounding = dropped(Some(factor));
+        assert_eq!(rate(&rebounding, EventKind::Landing), rate(&plastic, EventKind::Landing));
+        let expected = factor * rate(&plastic, EventKind::Impact);
+        assert_relative_eq!(rate(&rebounding, EventKind::Impact), expected, max_relative = 1e-12);
+        let sliding = rebounding.sliding.expect("friction");
+        assert_eq!(sliding.without_restitution, 0);
+        assert!(sliding.residual_slide[0].abs() > 0.01, "{sliding:?}");
+        assert_eq!(sliding.peak_slide[0], sliding.residual_slide[0].abs());
     }
 }

@@ -359,3 +359,35 @@ fn short_slides_end_where_they_end_by_every_method() {
         assert!((stick.t - 0.135_576_960_5).abs() < 1e-9, "{method:?}: {}", stick.t);
     }
 }
+
+/// At `μ = b/h` a block slides, as the closed form has it for `μ ≤ t`: the resultant passes through the corner, and nothing turns.
+#[test]
+fn a_block_on_the_verge_of_turning_slides_with_its_face() {
+    for t in [0.125, 0.25, 0.5] {
+        let mut scene = scene(vec![Block::rectangle(t, 1.0, 1.0)], vec![t]);
+        scene.excitation.horizontal =
+            Some(Motion::Rectangular { amplitude: 0.75 * GRAVITY, start: 0.0, duration: 0.25 });
+        scene.options.t_end = 3.0;
+        let response = run(&scene);
+        let started = response.events[0].states_after.as_ref().expect("friction");
+        assert_eq!(started.to_string(), "(0<)", "{t}");
+        assert!(!response.time_in_mode.keys().any(|mode| mode != "rest"), "{:?}", response.time_in_mode);
+        let expected = 0.5 * 0.75 * GRAVITY * 0.0625 * (0.75 / t - 1.0);
+        assert_relative_eq!(slide(&response, 0).abs(), expected, max_relative = 1e-12);
+    }
+}
+
+/// Either of two flat contacts may slide under a jump of the ground: that with the smaller `Σ m |A|²` does, and the instant is ambiguous. With the static
+/// coefficient 0.4 the base slides by itself from 0.4 g on, with kinetic friction 0.3.
+#[test]
+fn of_two_slides_the_one_with_the_smaller_change_begins() {
+    let mut scene = scene(vec![Block::rectangle(0.5, 0.05, 1000.0), Block::rectangle(0.5, 0.05, 6000.0)], vec![0.3; 2]);
+    scene.friction = Some(Friction::new(vec![0.4, 0.38], vec![0.3; 2]));
+    let (amplitude, duration) = (0.7 * GRAVITY, 0.1);
+    scene.excitation.horizontal = Some(Motion::Rectangular { amplitude, start: 0.0, duration });
+    scene.options.t_end = 0.05;
+    let response = run(&scene);
+    assert_eq!(response.events[0].states_after.as_ref().expect("friction").to_string(), "(0<,0)");
+    assert_relative_eq!(slide(&response, 0), -0.5 * 0.4 * GRAVITY * 0.0025, max_relative = 1e-12);
+    assert_eq!(response.sliding.expect("friction").ambiguous, [0.0]);
+}

@@ -74,11 +74,14 @@ impl Search<'_> {
     ) -> Option<Joint> {
         let (joint, contact) = (joints[interface], answer.contacts[interface]);
         let slack = self.force_slack(interface, violation);
+        // What is rounding of a normal force is multiplied where it carries a slide.
+        let steepness = if joint.sticks() { 1.0 } else { self.friction.kinetic[interface].max(1.0) };
+        let pulls = contact.normal < -slack / steepness;
         match joint {
             Joint::Free => self.sinks(answer, interface, violation),
             Joint::Closed(slip) => {
                 let reach = half_length(self.column, interface, self.now.slide[interface]);
-                if contact.normal < -slack {
+                if pulls {
                     return Some(Joint::Free);
                 }
                 // The resultant is at -M / N from the centre.
@@ -92,7 +95,7 @@ impl Search<'_> {
                 let other_slip = self.wrong_slip(interface, joint, answer, violation);
                 // The sum of two cones may hold what one face would have to pull.
                 let is_held = joint.is_corner_on_corner() && slip == Slip::Sticks && other_slip.is_none();
-                if contact.normal < -slack && !is_held {
+                if pulls && !is_held {
                     return Some(Joint::Free);
                 }
                 let opening = f64::from(side) * relative(&answer.motion.omega, interface);

@@ -129,7 +129,8 @@ impl PendingTransition<'_> {
         };
         let solution = found.ok_or(RunEnd::Undetermined)?;
         self.ambiguous += usize::from(solution.is_ambiguous);
-        let answer = self.rebounding(&search, &solution, closing);
+        let closed = closing.iter().copied().filter(|interface| touch[*interface] == Touch::Faces);
+        let answer = self.rebounding(&search, &solution, closed);
         for (interface, joint) in solution.joints.iter().enumerate() {
             if *joint == Joint::Free && before.joints[interface] != Joint::Free {
                 self.now.apart[interface] = chain.apart(interface);
@@ -167,12 +168,13 @@ impl PendingTransition<'_> {
         }
     }
 
-    /// The answer with the scene's restitution; the plastic one if nothing rebounds, or restitution is left out, which is counted.
-    fn rebounding(&mut self, search: &Search, plastic: &Solution, closing: &[usize]) -> Answer {
+    /// The answer with the scene's restitution; the plastic one if nothing rebounds, or restitution is left out, which is counted. `closed` are the
+    /// interfaces whose faces have met: a corner that lands transmits no moment.
+    fn rebounding(&mut self, search: &Search, plastic: &Solution, mut closed: impl Iterator<Item = usize>) -> Answer {
         let kappa = &self.problem.kappa;
         let none_slides = plastic.joints.iter().all(|joint| joint.sticks() || *joint == Joint::Free);
-        let rebounds = |&&i: &&usize| kappa[i] != 1.0 && plastic.joints[i].is_corner();
-        let Some(&interface) = closing.iter().find(rebounds) else { return plastic.answer.clone() };
+        let rebounds = |&i: &usize| kappa[i] != 1.0 && plastic.joints[i].is_corner();
+        let Some(interface) = closed.find(rebounds) else { return plastic.answer.clone() };
         let rebound = if none_slides { search.rebound(plastic, interface, kappa[interface]) } else { None };
         self.without_restitution += usize::from(rebound.is_none());
         rebound.unwrap_or_else(|| plastic.answer.clone())

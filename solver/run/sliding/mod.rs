@@ -52,7 +52,7 @@ const MOST_EVENTS_AT_ONCE: usize = 64;
 const EVENTS_BEFORE_LOOKAHEAD: usize = 1;
 
 /// Longest time by which the ground's acceleration is ahead, as a share of the time, or of a second if that is longer.
-const LONGEST_LOOKAHEAD: f64 = 1e-9;
+const LONGEST_LOOKAHEAD: f64 = 1e-6;
 
 /// Runs a scene with friction. `sticking` is the scene without friction, `modes` are the motions of its column.
 ///

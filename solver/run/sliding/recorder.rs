@@ -227,6 +227,8 @@ impl<'p> SlidingRecorder<'p> {
             *self.time_in_mode.entry(mode).or_insert(0.0) += time;
             self.report.times.iter_mut().for_each(|times| times.sticking += time);
         }
+        // A block that has landed with a slide may only stick from there on.
+        raise(&mut self.report.peak_slide, &from.configuration.slide);
         if !self.problem.is_recorded() {
             return;
         }
@@ -260,7 +262,6 @@ impl<'p> SlidingRecorder<'p> {
         let work = lost + energy(column, &until.configuration) - energy(column, &from.configuration);
         self.report.ground_work += work;
         self.report.ground_exchange += work.abs();
-        let raise = |all: &mut [f64], own: &[f64]| all.iter_mut().zip(own).for_each(|(all, own)| *all = all.max(*own));
         raise(&mut self.peak_theta, &response.peak_theta);
         raise(&mut self.friction_demand, &response.friction_demand);
         for (all, own) in self.min_normal_force.iter_mut().zip(&response.min_normal_force) {
@@ -503,6 +504,13 @@ impl<'p> SlidingRecorder<'p> {
 
 /// Way of a slide, as a share of the column's size, up to which nothing has slid but rounding.
 const CRITICAL_WAY: f64 = 1e-13;
+
+/// Raises the largest magnitudes so far by those of other values.
+fn raise(largest: &mut [f64], values: &[f64]) {
+    for (largest, value) in largest.iter_mut().zip(values) {
+        *largest = largest.max(value.abs());
+    }
+}
 
 /// An impulse in the axes of the lower face, with its moment about the contact's centre, as that of a corner: with the moment about the corner, `place`
 /// to the right of the centre `[m]`, in the axes of the face that carries it, which is turned by `turn` against the lower one `[rad]`.
