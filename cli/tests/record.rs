@@ -286,6 +286,13 @@ fn records_are_scaled_to_any_measure() {
         let factor = folder.answers(&format!("{command} --json"))["scale"].as_f64().expect("a number");
         assert!((record.scale() / factor - 1.0).abs() < 1e-12, "{size}: {} and {factor}", record.scale());
     }
+    // On Mars, one g of the file and of what is asked for is the gravity of the scene.
+    folder.write("mars.toml", "gravity = 3.71\n[column]\nblocks = 1\nhalf_width = 0.2\nhalf_height = 0.8\n");
+    let told = folder.answers("record records/A_H1.csv --scene mars.toml --scale-to pga_g=0.2 --json");
+    let pga = ["pga", "pga_g", "pga_uplift", "gravity"].map(|key| told[key].as_f64().expect("a number"));
+    for (found, expected) in pga.into_iter().zip([0.2 * 3.71, 0.2, 0.2 / 0.25, 3.71]) {
+        assert!((found / expected - 1.0).abs() < 1e-12, "{told}");
+    }
     for (keys, word) in [
         ("pgv = 0.5\npga_g = 0.2", "remove one of the two"),
         ("pgv = 0.5\nscale = 2", "remove one of the two"),

@@ -212,10 +212,11 @@ impl Results {
         if !all_plausible(response.peak_theta.iter().copied().chain(times())) || times().any(|time| time < 0.0) {
             return Some("an angle or a time is out of range".into());
         }
-        let times_of =
-            |trust: &Trust| [trust.certain_at, trust.horizon, trust.solver_horizon, trust.input_horizon, trust.ends_at];
-        if self.trust.as_ref().is_some_and(|trust| times_of(trust).iter().any(|t| !(0.0..=LARGEST_NUMBER).contains(t)))
-        {
+        let times_of = |trust: &Trust| {
+            let horizons = [trust.horizon, trust.solver_horizon, trust.input_horizon];
+            horizons.into_iter().chain([trust.certain_at, trust.ends_at, trust.compared_every])
+        };
+        if self.trust.as_ref().is_some_and(|trust| times_of(trust).any(|t| !(0.0..=LARGEST_NUMBER).contains(&t))) {
             return Some("a time of `trust` is out of range".into());
         }
         let of_block =

@@ -144,23 +144,50 @@ impl Companion {
     }
 }
 
-/// Largest growth of a relative change of the input, and whether the growth went on beyond the horizon. The larger change counts unless it made runs
-/// part: the solver's own error is a larger part of the smaller one. Runs that part differ by [`AGREEMENT`] at least.
+/// Largest growth of a relative change of the input, and whether it is a lower bound. The larger change counts unless runs part: the solver's own error is
+/// a larger part of the smaller one. Runs that part differ by [`AGREEMENT`] at least.
 pub(super) fn amplification(companions: &[Companion]) -> (f64, bool) {
     let growth = |size: f64| {
         // A companion that failed or ends undetermined parts without having grown.
         let has_verdict = |one: &&Companion| one.verdict.is_some_and(|verdict| verdict != Verdict::Undetermined);
-        let own = companions.iter().filter(move |one| one.change.size() == Some(size)).filter(has_verdict);
-        own.clone().fold((0.0f64, false), |(most, parts), one| {
-            (most.max(one.difference / size), parts || one.parts_at.is_some())
+        let own = companions.iter().filter(|one| one.change.size() == Some(size)).filter(has_verdict);
+        own.fold((0.0f64, false), |(most, parts), one| {
+            let grown = if one.parts_at.is_some() { AGREEMENT } else { one.difference };
+            (most.max(grown / size), parts || one.parts_at.is_some())
         })
     };
-    match growth(CHANGES[2]) {
-        (most, false) => (most, false),
-        _ => {
-            let (of_least_change, parts) = growth(CHANGES[0]);
-            let least = AGREEMENT / CHANGES[2];
-            (of_least_change.max(least), parts || of_least_change < least)
-        }
+    match [CHANGES[2], CHANGES[0]].map(growth) {
+        [(large, false), (_, false)] => (large, false),
+        // What the larger change can only bound, the smaller one may still measure.
+        [(least, true), (small, false)] if small >= least => (small, false),
+        [(large, _), (small, _)] => (large.max(small), true),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Companions whose changes of 1e-6 and 1e-9 have grown to differences, or beyond agreement where there is none.
+    fn grown(large: Option<f64>, small: Option<f64>) -> (f64, bool) {
+        let companion = |change: f64, difference: Option<f64>| Companion {
+            change: Change::Excitation(change),
+            verdict: Some(Verdict::Stands),
+            block: None,
+            ends_at: 1.0,
+            parts_at: difference.is_none().then_some(0.5),
+            difference: difference.unwrap_or(1e-9),
+        };
+        amplification(&[companion(1e-6, large), companion(-1e-9, small)])
+    }
+
+    /// A run on coarse rows may part from a small change in a row in which a larger one happens to agree.
+    #[test]
+    fn growth_is_a_lower_bound_where_the_smaller_change_parts() {
+        assert_eq!(grown(Some(5e-3), Some(6e-6)), (5e-3 / 1e-6, false));
+        assert_eq!(grown(None, Some(5e-5)), (5e-5 / 1e-9, false));
+        assert_eq!(grown(None, Some(1e-7)), (AGREEMENT / 1e-6, true));
+        assert_eq!(grown(None, None), (AGREEMENT / 1e-9, true));
+        assert_eq!(grown(Some(5e-7), None), (AGREEMENT / 1e-9, true));
     }
 }

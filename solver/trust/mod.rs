@@ -75,9 +75,12 @@ pub struct Trust {
     pub input_horizon: f64,
     /// When the run ended `[s]`.
     pub ends_at: f64,
+    /// Interval between the rows that were compared `[s]`: horizons are no finer. Zero in files that do not say it.
+    #[serde(default)]
+    pub compared_every: f64,
     /// Largest relative difference of an angle or a slide, per relative change of excitation or sizes, as long as the runs agree, dimensionless.
     pub amplification: f64,
-    /// Whether changes went on growing beyond the horizon: the amplification is then only that up to the horizon.
+    /// Whether the amplification is a lower bound: runs part, and changes may have grown on.
     pub grows_on: bool,
     /// Whether all companions lose the same block as the run, or none if the run loses none; `false` if a companion failed.
     pub same_block: bool,
@@ -203,6 +206,7 @@ pub fn follow_run_observed(
         input_horizon: until(|_| true),
         solver_horizon: until(|one| matches!(one.change, Change::Tolerance(_))),
         ends_at,
+        compared_every: row_interval(&scene.column, ends_at),
         amplification,
         grows_on,
         same_block,
@@ -284,7 +288,11 @@ impl Trust {
         if self.determined {
             let until = match self.reaches_the_end() {
                 true => "agree to the end".to_string(),
-                false => format!("have this verdict and agree up to t = {:.4} s", self.input_horizon),
+                false => format!(
+                    "have this verdict and agree up to t = {:.4} s{}",
+                    self.input_horizon,
+                    self.spacing(self.input_horizon)
+                ),
             };
             let mut text = format!("{count} companions {until}, small changes grow {grown} times");
             if let Some(fold) = &self.fold {
@@ -307,11 +315,22 @@ impl Trust {
             && verdicts.iter().any(|(verdict, _)| *verdict == Some(Verdict::MayOverturn))
         {
             true => "angles are known to the end of the run, but the column may be falling then".to_string(),
-            false => format!("angles are known up to t = {:.4} s only", self.horizon),
+            false => format!("angles are known up to t = {:.4} s only{}", self.horizon, self.spacing(self.horizon)),
         };
         format!("{known}; small changes grow {grown} times; {verdicts_in_words}")
     }
+
+    /// The interval of the rows in words, where it is more than a small part of a horizon.
+    fn spacing(&self, horizon: f64) -> String {
+        match self.compared_every > COARSE_SHARE * horizon {
+            true => format!(" (compared every {:.2} s)", self.compared_every),
+            false => String::new(),
+        }
+    }
 }
+
+/// Share of a horizon above which the interval between rows is named beside it.
+const COARSE_SHARE: f64 = 0.05;
 
 /// A verdict and the number of companions that have it, in words.
 fn counted((verdict, count): (Option<Verdict>, usize)) -> String {

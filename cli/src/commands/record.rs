@@ -24,9 +24,12 @@ pub fn record(arguments: &arguments::Record, window: Option<Window>) -> Result<(
     let Some(path) = arguments.file.clone() else {
         return Err(Failure::Trim(arguments.trim.join(" "), "no record file is named".into()));
     };
-    let file = read(&path, &options(arguments)).map_err(|problem| problem.at(&path))?;
+    let column = arguments.scene.as_deref().map(inputs::scene).transpose()?.map(|scene| scene.column);
+    let options = options(arguments, column.as_ref());
+    let gravity = options.gravity;
+    let file = read(&path, &options).map_err(|problem| problem.at(&path))?;
     let refused = |error: RecordError| Failure::Record(path.clone(), error);
-    let mut description = Description::of(&path, &file);
+    let mut description = Description::of(&path, &file, gravity);
     let mut record = file.into_record().map_err(refused)?.named(path.display().to_string());
     if let Some(Window { from, to }) = window {
         let outside = |error| format!("{error} ({} s are in the file)", description.duration);
@@ -36,9 +39,8 @@ pub fn record(arguments: &arguments::Record, window: Option<Window>) -> Result<(
         record = record.scaled(factor).map_err(refused)?;
     }
     if let Some(peak) = arguments.pga {
-        record = record.scaled_to_peak(peak * DEFAULT_GRAVITY).map_err(refused)?;
+        record = record.scaled_to_peak(peak * gravity).map_err(refused)?;
     }
-    let column = arguments.scene.as_deref().map(inputs::scene).transpose()?.map(|scene| scene.column);
     let damping = arguments.damping.unwrap_or(DEFAULT_DAMPING);
     if let Some((mut intensity, size)) = arguments.scale_to {
         if let Measure::Sa { damping: own, .. } = &mut intensity.measure
@@ -48,10 +50,10 @@ pub fn record(arguments: &arguments::Record, window: Option<Window>) -> Result<(
         }
         let unit = match &column {
             Some(column) => Some(intensity.unit_size(column)),
-            None => intensity.unit_size_without_column(DEFAULT_GRAVITY),
+            None => intensity.unit_size_without_column(gravity),
         };
         let unit = unit.ok_or_else(|| Failure::NoColumn(intensity.to_string()))?;
-        record = record.scaled_to(intensity.measure, size * unit, DEFAULT_GRAVITY).map_err(refused)?;
+        record = record.scaled_to(intensity.measure, size * unit, gravity).map_err(refused)?;
     }
     description.measure(&record);
     description.measure_by(&record, &arguments.sa, damping, column.as_ref());
@@ -67,7 +69,7 @@ pub fn record(arguments: &arguments::Record, window: Option<Window>) -> Result<(
         let figure = plot::record(
             &title,
             record.dt(),
-            DEFAULT_GRAVITY,
+            gravity,
             record.accel(),
             &velocity,
             &displacement,
@@ -123,9 +125,10 @@ impl Window {
     }
 }
 
-pub fn options(arguments: &arguments::Record) -> TextOptions {
+/// How a record file is read; one g is the gravity of the scene, whose column this is, or [`DEFAULT_GRAVITY`] without a scene.
+pub fn options(arguments: &arguments::Record, column: Option<&Column>) -> TextOptions {
     TextOptions {
-        gravity: DEFAULT_GRAVITY,
+        gravity: column.map_or(DEFAULT_GRAVITY, Column::gravity),
         dt: arguments.dt,
         units: arguments.units,
         lenient: arguments.lenient,
@@ -215,7 +218,8 @@ pub struct OfColumn {
 }
 
 impl Description {
-    pub fn of(path: &Path, file: &RecordFile) -> Description {
+    /// The description of a file that was read with this gravity `[m/s²]`.
+    pub fn of(path: &Path, file: &RecordFile, gravity: f64) -> Description {
         Description {
             file: path.into(),
             format: file.format,
@@ -230,7 +234,7 @@ impl Description {
             samples: file.accel.len(),
             duration: file.accel.len().saturating_sub(1) as f64 * file.dt,
             scale: 1.0,
-            gravity: DEFAULT_GRAVITY,
+            gravity,
             pga_g: 0.0,
             measures: None,
             spectral: Vec::new(),
@@ -242,11 +246,11 @@ impl Description {
 
     /// Takes samples and measures from the record as it is after trimming and scaling.
     pub fn measure(&mut self, record: &Record) {
-        let measures = record.measures(DEFAULT_GRAVITY);
+        let measures = record.measures(self.gravity);
         self.samples = record.accel().len();
         self.duration = record.duration();
         self.scale = record.scale();
-        self.pga_g = measures.pga / DEFAULT_GRAVITY;
+        self.pga_g = measures.pga / self.gravity;
         self.drifts = measures.drifts();
         self.measures = Some(measures);
     }

@@ -75,10 +75,11 @@ pub fn list(path: &Path, arguments: &arguments::Record) -> Result<(), Failure> {
     let by = |description: &mut Description, record: &Record| {
         description.measure_by(record, &arguments.sa, arguments.damping.unwrap_or(DEFAULT_DAMPING), column.as_ref());
     };
+    let options = options(arguments, column.as_ref());
     let mut groups: BTreeMap<String, Vec<Listed>> = BTreeMap::new();
     let mut unread = Vec::new();
     for name in &names {
-        match listed(path, name, &options(arguments), &by) {
+        match listed(path, name, &options, &by) {
             Ok(description) => {
                 let file = name.to_string_lossy();
                 let (record, ending) = record_and_component(&file);
@@ -122,7 +123,7 @@ fn listed(
         text.strip_prefix(&prefix).unwrap_or(&text).to_string()
     };
     let file = file.map_err(|problem| in_words(problem.at(&path)))?;
-    let mut description = Description::of(name, &file);
+    let mut description = Description::of(name, &file, options.gravity);
     let record = file.into_record().map_err(|error| in_words(Problem::Content(error).at(&path)))?;
     description.measure(&record);
     measure_by(&mut description, &record);

@@ -26,6 +26,8 @@ class Trust:
     """The same of all companions [s]: beyond it angles hang on the seventh digit of the inputs."""
     ends_at: float
     """When the run ended [s]."""
+    compared_every: float
+    """Interval between the rows that were compared [s]: horizons are no finer."""
     amplification: float
     """Largest change of an angle over α, per relative change of the inputs, dimensionless."""
     grows_on: bool
