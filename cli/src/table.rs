@@ -10,7 +10,8 @@ pub mod parquet;
 
 use crate::error::Failure;
 use crate::files::{LARGEST_TABLE, check};
-use column::Rows;
+use column::{OUTCOME, Rows};
+use csv::StringRecord;
 use std::path::Path;
 
 /// The file format of a table.
@@ -51,14 +52,24 @@ pub fn open(path: &Path) -> std::io::Result<Rows> {
     check(path, LARGEST_TABLE)?;
     match Format::of(path).map_err(std::io::Error::other)? {
         Format::Csv => {
-            // Tables that were edited may have blanks beside their commas.
-            let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path)?;
+            let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::Headers).from_path(path)?;
             let header = reader.headers().map_err(damage)?.clone();
-            Ok(Rows { header, rows: Box::new(reader.into_records().map(|row| row.map_err(damage))) })
+            let axes = header.iter().position(|name| name == OUTCOME).unwrap_or(0);
+            let rows = reader.into_records().map(move |row| row.map(|row| tidied(row, axes)).map_err(damage));
+            Ok(Rows { header, rows: Box::new(rows) })
         }
         #[cfg(feature = "parquet")]
         Format::Parquet => parquet::Reader::open(path).map(parquet::Reader::rows),
     }
+}
+
+/// A row without the blanks that an edited table may have beside its commas. Texts of the first `axes` cells keep theirs: they are names.
+fn tidied(row: StringRecord, axes: usize) -> StringRecord {
+    let is_name = |place: usize, cell: &str| place < axes && cell.trim().parse::<f64>().is_err();
+    if row.iter().all(|cell| cell.len() == cell.trim().len()) {
+        return row;
+    }
+    row.iter().enumerate().map(|(place, cell)| if is_name(place, cell) { cell } else { cell.trim() }).collect()
 }
 
 /// What is wrong with a table, by its line.

@@ -97,6 +97,37 @@ fn the_values_of_a_spectrum_are_those_of_single_runs() {
     assert!(whole == merged);
 }
 
+/// Axes that change together, and a distribution beside an axis of records, have fractiles of the records at each combination of the others as well.
+#[test]
+fn paired_and_sampled_sweeps_of_records_have_fractiles() {
+    let paired = "ask = \"peaks\"\ncombine = \"paired\"\n[axes]\nseed = [1, 2, 3, 1, 2, 3]\npgv = [0.4, 0.4, 0.4, 0.8, 0.8, 0.8]\n";
+    let sampled =
+        "ask = \"peaks\"\n[sampling]\nsamples = 5\n[axes]\nseed = [1, 2, 3]\neta = { uniform = [0.8, 0.9] }\n";
+    let noise = NOISE.replace("pga_g = 0.35", "pgv = 0.4");
+    for (sweep, scene, key, groups) in
+        [(paired, noise.as_str(), "excitation.horizontal.pgv", 2), (sampled, NOISE, "restitution.eta", 5)]
+    {
+        let folder = folder(&format!("{COLUMN}{scene}[solver]\nt_end = 14.0\n"), sweep);
+        let told = folder.succeeds("sweep sweep.toml");
+        assert!(told.contains("wrote 16, 50 and 84 % fractiles"), "{told}");
+        let (table, fractiles) = (folder.table("sweep.csv"), folder.table("sweep-fractiles.csv"));
+        assert_eq!(fractiles.len(), groups, "{key}");
+        for row in fractiles.rows() {
+            let own = table.rows().filter(|one| one.number(key) == row.number(key));
+            let lost = |one: &crate::common::Row| one.text("outcome") == "overturns";
+            let demands: Vec<f64> =
+                own.map(|one| if lost(&one) { f64::INFINITY } else { one.number("peak_1") }).collect();
+            assert_eq!((demands.len(), row.number("runs")), (3, 3.0), "{key}");
+            assert_eq!(row.number("peak_50"), fractile(&demands, 0.5), "{key}");
+        }
+    }
+    // Where each record has values of its own there is nothing to take together.
+    let apart = paired.replace("0.4, 0.4, 0.4, 0.8, 0.8, 0.8", "0.3, 0.4, 0.5, 0.6, 0.7, 0.8");
+    let folder = folder(&format!("{COLUMN}{noise}[solver]\nt_end = 14.0\n"), &apart);
+    folder.succeeds("sweep sweep.toml");
+    assert!(!folder.has("sweep-fractiles.csv"));
+}
+
 /// A slender block under a constant acceleration of λ g tan α for the time t: θ/α = (λ - 1)(cosh pt - 1) and θ'/(αp) = (λ - 1) sinh pt at its end, then
 /// θ'² - p²(θ - α)² stays: the peak is α (1 - √((1 - θ/α)² - (θ'/(αp))²)), and the block is lost where the root is none.
 #[test]

@@ -34,10 +34,11 @@ fn failure_probabilities_are_those_of_the_distribution() {
             assert_eq!((runs, undecided, share), (2048.0, 0.0, lost / 2048.0));
             assert!((share - exact).abs() < error, "{method}: {share} and {exact}");
             assert!(low < exact && exact < high && high - low < 0.05, "{method}: {low} to {high}");
-            assert!(
-                told.contains(&format!("lost with probability {share:.4} ({lost} of 2048; 95 % confidence: ")),
-                "{told}"
-            );
+            let printed = told.split_once("lost with probability ").and_then(|(_, rest)| rest.split_once(' '));
+            let (printed, rest) = printed.expect("a probability");
+            // Four digits.
+            assert!((printed.parse::<f64>().expect("a number") / share - 1.0).abs() <= 5e-4, "{told}");
+            assert!(rest.starts_with(&format!("({lost} of 2048; 95 % confidence: ")), "{told}");
         }
     }
 }
@@ -164,5 +165,23 @@ fn bad_distributions_are_refused_with_place_and_remedy() {
         let message = unbroken(&folder.refused("sweep sweep.toml --out table.csv", &[]));
         assert_has(&message, &told);
         assert!(!folder.has("table.csv"));
+    }
+}
+
+/// Rare failures have digits: with four decimals, 5 in a million were 0.0000.
+#[test]
+fn rare_probabilities_are_printed_with_their_digits() {
+    let sweep = "ask = \"overturns\"\n[axes]\namplitude = { lognormal = [1.2, 0.2] }\n[sampling]\nsamples = 20000\nmethod = \"plain\"\n";
+    let folder = folder(sweep);
+    let told = folder.succeeds("sweep sweep.toml --out table.csv");
+    let line = told.lines().find(|line| line.starts_with("lost with probability")).expect("a probability");
+    let row = folder.table("table-probability.csv");
+    let [lost, low, high] = ["lost", "low", "high"].map(|name| row.row(0).number(name));
+    assert!(lost > 0.0 && lost < 100.0, "{line}");
+    let (_, interval) = line.split_once("confidence: ").expect("an interval");
+    let ends: Vec<f64> =
+        interval.trim_end_matches(')').split(" to ").map(|end| end.parse().expect("a number")).collect();
+    for (printed, exact) in ends.iter().zip([low, high]) {
+        assert!((printed / exact - 1.0).abs() <= 5e-4, "{line}");
     }
 }

@@ -56,6 +56,28 @@ fn a_station_is_its_components_scaled_by_one_factor() {
     }
 }
 
+/// Arrays number their stations: the azimuth comes after another number, and the end of a file's name is the azimuth alone.
+#[test]
+fn azimuths_after_numbers_of_stations_are_ends_of_names() {
+    let folder = Folder::new();
+    for (own, name) in [("000", "E07140"), ("090", "E07230"), ("-UP", "E07-UP")] {
+        let from = format!("ground/tests/records/peer/RSN9001_HOLLOW_MIL{own}.AT2");
+        folder.copy(&from, &format!("records/RSN182_IMPVALL.H_H-{name}.AT2"));
+    }
+    let of = |component: &str| {
+        scene(&folder, &format!("[excitation.station]\nrecord = \"records/RSN182\"\ncomponent = \"{component}\"\n"))
+    };
+    let second = of("H2").expect("valid");
+    for name in ["230", "7230", "e07230", "H-E07230"] {
+        assert_eq!(of(name).expect("valid"), second, "{name}");
+    }
+    assert_eq!(of("140").expect("valid"), of("H1").expect("valid"));
+    // Both end so, and neither.
+    for name in ["0", "50", "UP"] {
+        assert_has(&of(name).expect_err("none"), &["no horizontal component", "E07140.AT2", "E07230.AT2"]);
+    }
+}
+
 #[test]
 fn an_axis_takes_the_records_of_a_folder_with_their_components() {
     let folder = folder();

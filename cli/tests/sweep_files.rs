@@ -36,7 +36,7 @@ fn shards_that_are_missing_or_of_another_sweep_are_noticed() {
     folder.write("other.toml", other);
     folder.succeeds("sweep other.toml --out other.csv --shard 2/2 --quiet");
     for (arguments, named) in [
-        ("1.csv 3.csv", &["3.csv", "point 30 where 15 is due"][..]),
+        ("1.csv 3.csv", &["3.csv", "point 30 where 15 is due", "points 15 to 29 are missing"][..]),
         ("2.csv 3.csv 4.csv", &["2.csv", "point 15 where 0 is due"]),
         ("1.csv 2.csv 2.csv", &["2.csv", "point 15 where 30 is due"]),
         ("1.csv 2.csv other.csv", &["other.csv", "columns", "the others"]),
@@ -353,4 +353,39 @@ fn shards_of_records_are_merged_with_their_sweep() {
         let told = folder.succeeds("merge m.csv sweep-1-of-2.csv sweep-2-of-2.csv --sweep sweep.toml");
         assert!(told.contains("2 row(s)"), "{told}");
     }
+}
+
+/// Names of files may end in a blank; cells of edited tables may have blanks beside their commas.
+#[test]
+fn names_with_blanks_at_their_ends_are_names_of_their_own() {
+    let folder = folder("scene = \"base.toml\"\n[axes]\ntitle = [\"drum\", \"drum \"]\neta = [0.8, 0.9]\n");
+    folder.succeeds("sweep sweep.toml --out whole.csv --quiet");
+    for number in 1..=2 {
+        folder.succeeds(&format!("sweep sweep.toml --out {number}.csv --shard {number}/2 --quiet"));
+    }
+    for sweep in ["", " --sweep sweep.toml"] {
+        folder.succeeds(&format!("merge merged.csv 1.csv 2.csv{sweep}"));
+        assert_eq!(folder.read("merged.csv"), folder.read("whole.csv"), "{sweep}");
+    }
+    folder.succeeds("plot whole.csv --out strips.svg");
+    let edited = folder.read("whole.csv").replace(",0.8,", ", 0.8 ,").replace(",false", ", false");
+    folder.write("edited.csv", edited.clone());
+    folder.succeeds("merge merged.csv edited.csv --sweep sweep.toml");
+    folder.write("1.csv", "");
+    folder.refused("merge merged.csv 1.csv 2.csv", &["1.csv", "empty", "again"]);
+}
+
+/// A shard has its digest beside it: a record of that name would be lost.
+#[test]
+fn a_digest_over_an_input_is_refused() {
+    let folder = folder("scene = \"shaken.toml\"\n[axes]\nfile = [\"records/x.csv.digest\"]\n");
+    folder.write(
+        "shaken.toml",
+        "[column]\nblocks = 1\nhalf_width = 0.2\nhalf_height = 1\n[excitation.horizontal]\nkind = \"record\"\nfile = \"records/a.AT2\"\n",
+    );
+    folder.copy("scenes/records/synthetic.AT2", "records/a.AT2");
+    folder.copy("scenes/records/synthetic.AT2", "records/x.csv.digest");
+    let before = folder.read("records/x.csv.digest");
+    folder.refused("sweep sweep.toml --shard 1/1 --out records/x.csv", &["x.csv.digest"]);
+    assert_eq!(folder.read("records/x.csv.digest"), before);
 }

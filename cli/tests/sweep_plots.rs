@@ -141,6 +141,10 @@ fn points_without_result_are_hatched() {
     );
     // Cells reach half way to their neighbours: from -0.4 to 0 of -0.4 to 0.5.
     assert!(figure.contains("no result (hatched), 44 %"));
+    // Shares are of the runs that have one: 3 of 6 overturn, in cells of other sizes.
+    assert!(figure.contains("3 of 9 runs have no result and are left out."), "{figure}");
+    let least = folder.read("f-minimum.svg");
+    assert!(least.contains("no run overturns up to the end of the axis. 3 of 9 runs have no result"), "{least}");
 }
 
 #[test]

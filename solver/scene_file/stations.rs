@@ -26,9 +26,30 @@ pub(crate) struct Component {
 
 impl Component {
     /// Whether the component has this name, in the name of its file or in the file. Case does not matter.
-    pub fn is_called(&self, name: &str) -> bool {
+    fn is_called(&self, name: &str) -> bool {
         let own = [self.ending.as_str(), self.record.source().component.trim()];
         own.iter().any(|own| own.eq_ignore_ascii_case(name))
+    }
+
+    /// Whether the name of the component's file ends so. Case does not matter.
+    fn ends_with(&self, name: &str) -> bool {
+        let stem = Path::new(&self.name).file_stem().map(|stem| stem.to_string_lossy().to_ascii_lowercase());
+        stem.is_some_and(|stem| !name.is_empty() && stem.ends_with(&name.to_ascii_lowercase()))
+    }
+
+    /// The components that a name means: those that have it, or, for `H1` and `H2`, the first and the second horizontal component in the order of file names,
+    /// or the only one whose file's name ends so (`230` of `RSN182_IMPVALL.H_H-E07230.AT2`, where a station's number comes before the azimuth).
+    pub fn named<'c>(components: &'c [Component], name: &str) -> Vec<&'c Component> {
+        let called: Vec<&Component> = components.iter().filter(|own| own.is_called(name)).collect();
+        if !called.is_empty() {
+            return called;
+        }
+        if let Some(place) = ["H1", "H2"].iter().position(|place| name.eq_ignore_ascii_case(place)) {
+            let along = components.iter().filter(|own| own.direction == Direction::Horizontal);
+            return along.skip(place).take(1).collect();
+        }
+        let ending: Vec<&Component> = components.iter().filter(|own| own.ends_with(name)).collect();
+        if ending.len() == 1 { ending } else { Vec::new() }
     }
 }
 
@@ -109,11 +130,8 @@ impl Reader<'_> {
         let refuse = |key: &str, problem: String| Fault::of_record(table, key, self.beside(&name), problem);
         let components = self.components(table, &name, &options)?;
         let known = components.iter().map(|component| component.name.as_str()).collect::<Vec<_>>().join(", ");
-        let along: Vec<&Component> =
-            components.iter().filter(|component| component.direction == Direction::Horizontal).collect();
-        let by_place = ["H1", "H2"].iter().position(|place| requested.eq_ignore_ascii_case(place));
-        let called = along.iter().find(|component| component.is_called(&requested));
-        let Some(horizontal) = called.or_else(|| along.get(by_place?)).copied() else {
+        let named = Component::named(&components, &requested);
+        let Some(horizontal) = named.into_iter().find(|component| component.direction == Direction::Horizontal) else {
             let problem = format!(
                 "it has no horizontal component `{requested}`, only {known}; choose H1, H2 or the end of a file's name, or leave the record out"
             );

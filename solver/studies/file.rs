@@ -188,8 +188,7 @@ fn of_seeds(table: &mut Table) -> Result<Vec<StudyRecord>, Wrong> {
 
 /// Components that a study takes from the records of a folder.
 struct ComponentChoice<'t> {
-    /// `horizontal` or `vertical` for all components of that direction, or the name of a component, from the end of its file's name or from the file.
-    /// `H1` and `H2`, where no component has that name, are the first and the second horizontal component in the order of file names.
+    /// `horizontal` or `vertical` for all components of that direction, or the name of a component ([`Component::named`]).
     component: &'t str,
     with_vertical: bool,
 }
@@ -201,14 +200,7 @@ impl ComponentChoice<'_> {
         match self.component {
             "horizontal" => along(Direction::Horizontal).collect(),
             "vertical" => along(Direction::Vertical).collect(),
-            name => {
-                let called: Vec<&Component> = components.iter().filter(|own| own.is_called(name)).collect();
-                let place = ["H1", "H2"].iter().position(|place| name.eq_ignore_ascii_case(place));
-                match place {
-                    Some(place) if called.is_empty() => along(Direction::Horizontal).skip(place).take(1).collect(),
-                    _ => called,
-                }
-            }
+            name => Component::named(components, name),
         }
     }
 }

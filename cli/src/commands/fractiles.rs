@@ -9,15 +9,17 @@ use crate::table::open;
 use crate::text::{printable, shown};
 use rocking::Fate;
 use rocking::studies::{FRACTILES, fractile};
-use rocking::sweep::{Axis, Combine, NOT_DETERMINED, Sweep, is_of_records};
+use rocking::sweep::{Combine, NOT_DETERMINED, Sweep, is_of_records};
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 /// The runs at one combination of the axes that are not of records.
 #[derive(Clone, Debug, Default)]
 struct Group {
-    /// Index of the first point of the group.
-    first: usize,
-    runs: usize,
+    /// Values of these axes.
+    at: Vec<String>,
+    /// Number of runs without an answer.
+    undecided: usize,
     /// Largest `|θ|/α` of the runs that have an answer, infinite where the column is lost.
     demands: Vec<f64>,
 }
@@ -27,10 +29,19 @@ pub fn table(out: &Path) -> PathBuf {
     beside(&out.with_extension("csv"), "fractiles")
 }
 
-/// Whether a sweep has fractiles: it is Cartesian, asks for largest angles, and has at least [`LEAST_RECORDS`] records.
+/// Whether a sweep has fractiles: it asks for largest angles, and each combination of its other axes has at least [`LEAST_RECORDS`] records.
 pub fn has(sweep: &Sweep) -> bool {
-    let records = sweep.axes.iter().filter(|axis| is_of_records(&axis.key)).map(|axis| axis.values.len());
-    sweep.combine == Combine::Cartesian && sweep.ask.is_of_peaks() && records.product::<usize>() >= LEAST_RECORDS
+    let records = match sweep.combine {
+        Combine::Paired => {
+            let mut runs: HashMap<Vec<String>, usize> = HashMap::new();
+            (0..sweep.len()).for_each(|index| *runs.entry(others(sweep, index)).or_default() += 1);
+            let is_of_records = sweep.axes.iter().any(|axis| is_of_records(&axis.key));
+            if is_of_records { runs.into_values().min().unwrap_or(0) } else { 0 }
+        }
+        // Of records that are samples, each sample has its own.
+        _ => sweep.grid().iter().filter(|axis| is_of_records(&axis.key)).map(|axis| axis.values.len()).product(),
+    };
+    sweep.ask.is_of_peaks() && records >= LEAST_RECORDS
 }
 
 /// Writes the fractiles of the finished table of a sweep; returns what is printed.
@@ -40,53 +51,46 @@ pub fn write(sweep: &Sweep, out: &Path) -> Result<String, Failure> {
     let (outcome, trust, first_peak) = (column(OUTCOME), column(TRUST), column("peak_1"));
     let is_peak = |(place, name): &(usize, &str)| *name == format!("peak_{}", place + 1);
     let blocks = first_peak.map_or(0, |first| found.header.iter().skip(first).enumerate().take_while(is_peak).count());
-    let others: Vec<(usize, &Axis)> =
-        sweep.axes.iter().enumerate().filter(|(_, axis)| !is_of_records(&axis.key)).collect();
-    let mut groups: Vec<Group> = vec![Group::default(); others.iter().map(|(_, axis)| axis.values.len()).product()];
+    let mut groups: Vec<Group> = Vec::new();
+    let mut places: HashMap<Vec<String>, usize> = HashMap::new();
     for (index, row) in found.rows.enumerate() {
         let row = row.map_err(at(Failure::Study, out))?;
         let cell = |column: Option<usize>| column.and_then(|column| row.get(column)).unwrap_or_default();
         let fate = Fate::parse(cell(outcome)).filter(|fate| fate.is_decided() && cell(trust) != NOT_DETERMINED);
         let peaks = (0..blocks).filter_map(|block| cell(first_peak.map(|first| first + block)).parse::<f64>().ok());
-        let group = &mut groups[group(sweep, index)];
-        group.first = if group.runs == 0 { index } else { group.first };
-        group.runs += 1;
-        if let Some(fate) = fate {
-            group.demands.push(if fate.is_lost() { f64::INFINITY } else { peaks.fold(0.0, f64::max) });
+        let at = others(sweep, index);
+        let place = *places.entry(at.clone()).or_insert(groups.len());
+        if place == groups.len() {
+            groups.push(Group { at, ..Group::default() });
+        }
+        match fate {
+            Some(fate) if fate.is_lost() => groups[place].demands.push(f64::INFINITY),
+            Some(_) => groups[place].demands.push(peaks.fold(0.0, f64::max)),
+            None => groups[place].undecided += 1,
         }
     }
     let path = table(out);
     let failed = |error: csv::Error| Failure::File(path.clone(), error.to_string());
     let mut rows = csv::Writer::from_writer(Vec::new());
     let names = FRACTILES.map(|share| format!("peak_{:.0}", 100.0 * share));
-    let keys = others.iter().map(|(_, axis)| axis.key.clone());
+    let keys = sweep.axes.iter().map(|axis| axis.key.clone()).filter(|key| !is_of_records(key));
     rows.write_record(keys.chain(["runs", "lost", "undecided"].map(String::from)).chain(names)).map_err(failed)?;
-    for Group { first, runs, demands } in &groups {
-        let settings = sweep.settings(*first);
+    for Group { at, undecided, demands } in &groups {
         let lost = demands.iter().filter(|demand| demand.is_infinite()).count();
-        let counts = [*runs, lost, runs - demands.len()].map(|count| count.to_string());
+        let counts = [demands.len(), lost, *undecided].map(|count| count.to_string());
         let fractiles = FRACTILES.map(|share| match demands.is_empty() {
             true => String::new(),
             false => format!("{:?}", fractile(demands, share)),
         });
-        let at = others.iter().map(|(place, _)| printable(&settings[*place].to_string()).into_owned());
-        rows.write_record(at.chain(counts).chain(fractiles)).map_err(failed)?;
+        rows.write_record(at.iter().cloned().chain(counts).chain(fractiles)).map_err(failed)?;
     }
     let bytes = rows.into_inner().map_err(|error| failed(csv::Error::from(error.into_error())))?;
     output::file(&path, bytes)?;
     Ok(format!("wrote 16, 50 and 84 % fractiles over the records to {}\n", shown(&path)))
 }
 
-/// Number of the group of the point `index`. Groups are the combinations of the axes that are not of records; the last axis runs fastest.
-fn group(sweep: &Sweep, index: usize) -> usize {
-    let (mut rest, mut number, mut stride) = (index, 0, 1);
-    for axis in sweep.axes.iter().rev() {
-        let count = axis.values.len();
-        if !is_of_records(&axis.key) {
-            number += rest % count * stride;
-            stride *= count;
-        }
-        rest /= count;
-    }
-    number
+/// Values of the axes that are not of records at a point, as they stand in a table.
+fn others(sweep: &Sweep, index: usize) -> Vec<String> {
+    let axes = sweep.axes.iter().zip(sweep.settings(index)).filter(|(axis, _)| !is_of_records(&axis.key));
+    axes.map(|(_, setting)| printable(&setting.to_string()).into_owned()).collect()
 }

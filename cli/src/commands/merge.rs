@@ -147,7 +147,15 @@ fn join(
             let row = row.map_err(broken(path))?;
             let point = index(&row, path)?;
             if point != next as u64 {
-                return Err(broken(path)(format!("it has point {point} where {next} is due")));
+                let missing = match point.checked_sub(next as u64) {
+                    Some(1) => format!("; point {next} is missing: a table before it is not given, or not whole"),
+                    Some(_) => {
+                        let last = point - 1;
+                        format!("; points {next} to {last} are missing: a table before it is not given, or not whole")
+                    }
+                    None => String::new(),
+                };
+                return Err(broken(path)(format!("it has point {point} where {next} is due{missing}")));
             }
             if !is_whole(&row, outcome) {
                 return Err(broken(path)(format!("the row of point {point} is not whole")));
@@ -183,8 +191,10 @@ fn join_csv(
     failed: impl Fn(std::io::Error) -> Failure,
 ) -> Result<usize, Failure> {
     for path in tables {
-        if !ends_with_a_line(path).map_err(broken(path))? {
-            return Err(broken(path)("its last line is cut"));
+        match last_byte(path).map_err(broken(path))? {
+            Some(b'\n') => {}
+            Some(_) => return Err(broken(path)("its last line is cut: it is not whole, or no table")),
+            None => return Err(broken(path)("it is empty: run this shard again")),
         }
     }
     let mut writer = csv::Writer::from_writer(out);
@@ -195,15 +205,16 @@ fn join_csv(
     Ok(rows)
 }
 
-/// Whether a file ends with a line break.
-fn ends_with_a_line(path: &Path) -> std::io::Result<bool> {
+/// The last byte of a file; `None` of an empty one.
+fn last_byte(path: &Path) -> std::io::Result<Option<u8>> {
     let mut file = File::open(path)?;
-    let mut last = [0];
-    if file.metadata()?.len() > 0 {
-        file.seek(SeekFrom::End(-1))?;
-        file.read_exact(&mut last)?;
+    if file.metadata()?.len() == 0 {
+        return Ok(None);
     }
-    Ok(last == *b"\n")
+    let mut last = [0];
+    file.seek(SeekFrom::End(-1))?;
+    file.read_exact(&mut last)?;
+    Ok(Some(last[0]))
 }
 
 /// [`join_csv`] for Parquet; the rows of all tables are cut into groups anew.

@@ -3,6 +3,7 @@
 
 use crate::commands::spectrum::beside;
 use crate::error::{Failure, at};
+use crate::number::significant;
 use crate::output;
 use crate::table::column::{OUTCOME, TRUST};
 use crate::table::open;
@@ -16,6 +17,9 @@ use std::path::{Path, PathBuf};
 
 /// Confidence of the intervals.
 const CONFIDENCE: f64 = 0.95;
+
+/// Significant digits of printed probabilities.
+const DIGITS: usize = 4;
 
 /// Largest number of combinations printed to the terminal; the table has all of them.
 const PRINTED: usize = 10;
@@ -101,10 +105,13 @@ impl Lost {
         let at: String = self.at.iter().map(|(key, value)| format!("{key} = {value}: ")).collect();
         let Proportion { reached, runs, interval: [low, high], .. } = self.found;
         let mut line = match self.found.probability {
-            Some(share) => format!(
-                "{at}lost with probability {share:.4} ({reached} of {runs}; {:.0} % confidence: {low:.4} to {high:.4})",
-                100.0 * CONFIDENCE
-            ),
+            Some(share) => {
+                let [share, low, high] = [share, low, high].map(|share| significant(share, DIGITS));
+                let confidence = 100.0 * CONFIDENCE;
+                format!(
+                    "{at}lost with probability {share} ({reached} of {runs}; {confidence:.0} % confidence: {low} to {high})"
+                )
+            }
             None => format!("{at}no sample has an answer"),
         };
         if self.undecided > 0 {

@@ -41,6 +41,7 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
     let is_of_records = request.shard.is_none() && fractiles::has(&sweep);
     outputs.extend(is_of_records.then(|| fractiles::table(&out)));
     let inputs = inputs_of(&request.file, &sweep);
+    outputs.extend(request.shard.map(|_| digest_file(&out)));
     output::check(&outputs, &inputs)?;
     let target = output::target(&out)?;
     let range = request.shard.map_or(0..sweep.len(), |shard| shard.points(sweep.len()));

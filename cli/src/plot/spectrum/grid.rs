@@ -104,8 +104,8 @@ pub struct Grid {
     pub plane: Plane,
     /// Cells of each panel, row by row, the lowest row first.
     pub panels: Vec<Vec<Class>>,
-    /// [`Points::truncation`].
-    pub truncation: String,
+    /// [`Points::notes`].
+    pub notes: String,
 }
 
 /// Share of some panels whose class is `wanted`, by the areas of the cells of each panel.
@@ -113,6 +113,12 @@ pub fn share(panels: &[Vec<Class>], areas: &[f64], wanted: impl Fn(Class) -> boo
     let cells = || panels.iter().flat_map(|panel| panel.iter().zip(areas));
     let total: f64 = cells().map(|(_, area)| area).sum();
     cells().filter(|(class, _)| wanted(**class)).map(|(_, area)| area).sum::<f64>() / total
+}
+
+/// Share of the cells with a result in which the column is lost, by their areas; zero if there are none.
+pub fn share_lost(panels: &[Vec<Class>], areas: &[f64]) -> f64 {
+    let answered = share(panels, areas, |class| class != Class::Error);
+    if answered > 0.0 { share(panels, areas, Class::is_lost) / answered } else { 0.0 }
 }
 
 impl Grid {
@@ -127,7 +133,7 @@ impl Grid {
         let panels: Option<Vec<Vec<Class>>> = panels.into_iter().map(|cells| cells.into_iter().collect()).collect();
         // There are as many rows as cells. A cell without a row therefore means that another cell has two.
         let panels = panels.ok_or_else(|| NoSpectrum::NoTable("points are missing".into()))?;
-        Ok(Grid { plane, panels, truncation: points.truncation() })
+        Ok(Grid { plane, panels, notes: points.notes() })
     }
 
     /// Areas of the cells of a panel, row by row, the lowest row first, as shares of the panel.

@@ -2,8 +2,7 @@
 //! one at which the column is lost.
 
 use super::cells::{cells, legend, percent};
-use super::class::Class;
-use super::grid::{Grid, Plane, share};
+use super::grid::{Grid, Plane, share_lost};
 use super::place::{GAP, NUMBERS, Place, TITLE, line};
 use crate::plot::curve::{self, Frame, Point};
 use crate::plot::paper::Paper;
@@ -65,13 +64,13 @@ pub fn spectrum(grid: &Grid, paper: &Paper) -> Figure {
     let entries = legend(&grid.panels, &areas, Some((LEAST, grid.loss().it)));
     sheet.height = sheet.legend(bottom + NUMBERS + 20.0, &entries) + 6.0;
 
-    let share = |panel: usize| percent(share(&grid.panels[panel..=panel], &areas, Class::is_lost));
+    let share = |panel: usize| percent(share_lost(&grid.panels[panel..=panel], &areas));
     let parts = (0..titles.len()).map(|panel| format!("{} {}", titles[panel], share(panel)).trim_start().to_string());
     let caption = format!(
         "{what}. Share of the plane that {}: {}.{}",
         grid.loss().it,
         parts.collect::<Vec<_>>().join(", "),
-        grid.truncation
+        grid.notes
     );
     Figure::new("overturning-spectrum", caption, sheet)
 }
@@ -128,10 +127,10 @@ pub fn minimum(grid: &Grid, paper: &Paper) -> Figure {
     };
     let gaps = (0..titles.len()).any(|panel| grid.minimum(panel).contains(&None));
     let note = match gaps {
-        true => format!(" Where a curve is interrupted nothing {} up to the end of the axis.", loss.it),
+        true => format!(" Where a curve is interrupted no run {} up to the end of the axis.", loss.it),
         false => String::new(),
     };
-    Figure::new("overturning-minimum", format!("{what}.{note}{}", grid.truncation), sheet)
+    Figure::new("overturning-minimum", format!("{what}.{note}{}", grid.notes), sheet)
 }
 
 /// Lines through the values of the lowest cells that are lost, interrupted at columns without such a cell. A single cell gives a line

@@ -115,6 +115,17 @@ impl Points {
         self.classes.len()
     }
 
+    /// Sentences for captions on the runs that have no result, and on those that t_end cuts; empty if there are none.
+    pub fn notes(&self) -> String {
+        let failed = self.classes.iter().filter(|class| **class == Class::Error).count();
+        let failed = match failed {
+            0 => String::new(),
+            1 => format!(" 1 of {} has no result and is left out.", counted(self.len(), ["run", "runs"])),
+            count => format!(" {count} of {} have no result and are left out.", counted(self.len(), ["run", "runs"])),
+        };
+        failed + &self.truncation()
+    }
+
     /// A sentence for captions on the runs that t_end cuts; empty if there are none.
     pub fn truncation(&self) -> String {
         match self.truncated {

@@ -3,7 +3,7 @@
 use super::cells::{cells, legend, percent};
 use super::class::Class;
 use super::family::Family;
-use super::grid::share;
+use super::grid::share_lost;
 use super::place::{GAP, NUMBERS, Place, TITLE};
 use super::points::Points;
 use super::scale::Scale;
@@ -33,12 +33,14 @@ pub fn draw(points: &Points, family: &Family, paper: &Paper) -> Figure {
     for (number, title) in family.titles.iter().enumerate() {
         let frame = Frame { left: EDGE, top: heading + number as f64 * (HEIGHT + heading), width, height: HEIGHT };
         let place = Place { frame, x: &x, y: &one };
-        let own = &rows[number][0];
-        // Of several points at one position, the most violent class is drawn.
-        let at = |value: f64| own.iter().filter(move |(x, _)| *x == value).map(|(_, row)| points.classes[*row]);
+        // Of several points at one position, the most violent class is drawn. Both positions rise.
         let order = |class: &Class| Class::ALL.iter().position(|own| own == class);
-        let strip: Vec<Class> =
-            x.values.iter().map(|value| at(*value).max_by_key(order).unwrap_or(Class::Error)).collect();
+        let mut own = rows[number][0].iter().map(|(position, row)| (*position, points.classes[*row])).peekable();
+        let mut at = |value: f64| {
+            let here = std::iter::from_fn(|| own.next_if(|(position, _)| *position <= value));
+            here.map(|(_, class)| class).max_by_key(order).unwrap_or(Class::Error)
+        };
+        let strip: Vec<Class> = x.values.iter().map(|value| at(*value)).collect();
         sheet.words([frame.left, frame.top - 7.0], &shortened(title, style::LABEL, width), style::LABEL, Anchor::Start);
         cells(&mut sheet, &place, &strip);
         place.axes(&mut sheet, [number + 1 == family.titles.len(), false]);
@@ -49,13 +51,13 @@ pub fn draw(points: &Points, family: &Family, paper: &Paper) -> Figure {
     sheet.words(below, &x.label(), style::LABEL, Anchor::Middle);
     let each_the_same = vec![1.0; x.values.len()];
     sheet.height = sheet.legend(below[1] + 8.0, &legend(&strips, &each_the_same, None)) + 6.0;
-    let share = |strip: &Vec<Class>| percent(share(std::slice::from_ref(strip), &each_the_same, Class::is_lost));
+    let share = |strip: &Vec<Class>| percent(share_lost(std::slice::from_ref(strip), &each_the_same));
     let parts: Vec<String> = family
         .titles
         .iter()
         .zip(&strips)
         .map(|(title, strip)| format!("{title} {}", share(strip)).trim_start().into())
         .collect();
-    let caption = format!("{what}. Share of the points that are lost: {}.{}", parts.join(", "), points.truncation());
+    let caption = format!("{what}. Share of the points that are lost: {}.{}", parts.join(", "), points.notes());
     Figure::new("outcomes", caption, sheet)
 }
