@@ -182,7 +182,7 @@ pub(crate) const LARGEST: f64 = 1e6;
 
 /// Half-widths and half-heights of blocks `[m]`. A block of 1e-7 m rocks at thousands of radians a second, and its rotation of 1e-9 rad, below
 /// which an interface closes, moves a corner by the size of an atomic nucleus. Beyond, positions and areas of figures lose their digits.
-const LENGTHS: RangeInclusive<f64> = 1e-7..=1e6;
+pub(crate) const LENGTHS: RangeInclusive<f64> = 1e-7..=1e6;
 
 /// Largest ratio of two lengths of a column. Corners are sums of lengths, rounded to 1e-16 of the largest: the smallest keeps eight digits.
 /// If it were larger, the contact search could not tell on which corner a resultant acts, and impacts would follow each other for ever.

@@ -27,9 +27,17 @@ pub fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
+/// An empty temporary file in `folder`. Errors do not have its name, which says nothing to users.
+pub fn temporary(folder: &Path) -> Result<NamedTempFile> {
+    NamedTempFile::new_in(folder).map_err(|error| {
+        let words = error.kind().to_string();
+        Error::new(error.kind(), words)
+    })
+}
+
 /// A temporary file in `folder`, with all that `write` writes.
 pub fn fill(folder: &Path, write: impl FnOnce(&mut BufWriter<&mut File>) -> Result<()>) -> Result<NamedTempFile> {
-    let mut file = NamedTempFile::new_in(folder)?;
+    let mut file = temporary(folder)?;
     let mut writer = BufWriter::new(file.as_file_mut());
     write(&mut writer)?;
     writer.flush()?;

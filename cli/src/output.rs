@@ -26,6 +26,9 @@ pub fn remove(path: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
 
 /// Makes a folder that the user has named.
 pub fn folder(path: &Path) -> Result<(), Failure> {
+    if path.is_file() {
+        return Err(Failure::Output(path.into(), "a file has this name".into()));
+    }
     std::fs::create_dir_all(path).map_err(at(Failure::Output, path))
 }
 
@@ -59,6 +62,9 @@ pub fn target(path: &Path) -> Result<PathBuf, Failure> {
     let text = path.to_string_lossy();
     let is_folder = || text.strip_suffix('.').unwrap_or(&text).ends_with(std::path::is_separator);
     match std::fs::metadata(path) {
+        _ if text == "-" => {
+            refused("results are written into files, not to standard output; `./-` is a file of this name")
+        }
         Ok(found) if found.is_dir() => refused("a folder has this name"),
         Ok(found) if !found.is_file() => refused("it is no file: results are put in place when they are whole"),
         Ok(_) => path.canonicalize().map_err(at(Failure::File, path)),

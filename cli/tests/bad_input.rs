@@ -63,6 +63,23 @@ fn unknown_keys_and_kinds() {
 }
 
 #[test]
+fn columns_that_are_no_list_or_stand_twice() {
+    let output = |columns: &str| format!("{SCENE}[output]\ncolumns = {columns}\n");
+    refused(&output("{ top = true }"), &["line 11", "`output.columns`", "a table stands here", "a list of names"]);
+    refused(&output("[\"top\", \"top\"]"), &["line 11", "`output.columns`", "`top` stands there twice"]);
+}
+
+/// The file has no such sizes: they come of `[size]`.
+#[test]
+fn sizes_that_no_column_can_be_scaled_to() {
+    for (key, value) in [("p", "1e-200"), ("R", "1e300"), ("R", "1e-12"), ("rocking_period", "1e9"), ("alpha", "1e-30")]
+    {
+        let size = format!("{SCENE}[size]\n{key} = {value}\n");
+        refused(&size, &["line 11", &format!("`size.{key}`"), "multiplies the sizes", "1e-7 to 1e6 m"]);
+    }
+}
+
+#[test]
 fn contradictory_keys() {
     let both = with("amplitude = 3.0", "amplitude = 3.0\namplitude_g = 0.3");
     refused(&both, &["line 7", "amplitude_g", "`amplitude` is given as well", "remove one"]);

@@ -152,6 +152,19 @@ fn results_that_cannot_be_put_in_place() {
 }
 
 /// Nobody, root included, can make a folder below a file.
+/// Of a file where a folder is wanted, of `-` and of folders that are closed, the message is about the name that was given.
+#[test]
+fn outputs_that_cannot_be_are_named_as_they_were_given() {
+    let folder = Folder::with("scene.toml", SCENE);
+    folder.write("taken.csv", "a,b\n");
+    folder.refused("run scene.toml --out taken.csv", &["taken.csv: a file has this name", "another folder"]);
+    for command in ["sweep s.toml --out -", "merge - taken.csv", "init -"] {
+        folder.write("s.toml", "scene = \"scene.toml\"\n[axes]\neta = [0.9]\n");
+        folder.refused(command, &["-: ", "not to standard output"]);
+    }
+    assert!(!folder.has("-") && folder.read("taken.csv") == "a,b\n");
+}
+
 #[test]
 fn an_output_folder_that_cannot_be_written() {
     let folder = Folder::with("scene.toml", SCENE);

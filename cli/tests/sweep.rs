@@ -421,6 +421,15 @@ fn a_value_of_an_axis_is_not_blamed_on_the_base_scene() {
     let table = folder.read("t.csv");
     assert!(table.contains("axis `restitution.eta`: 1.5 is out of range") && !table.contains("base.toml"), "{table}");
     folder.refused("sweep sweep.toml --out t.xlsx", &["t.xlsx", "CSV or Parquet"]);
+    // Nor is the line of a record that is there; paths of an axis are relative to the base scene.
+    folder.write("sub/shaken.toml", format!("{BLOCK}kind = \"record\"\nfile = \"a.AT2\"\n"));
+    folder.copy("scenes/records/synthetic.AT2", "sub/a.AT2");
+    folder.copy("scenes/records/synthetic.AT2", "b.AT2");
+    folder.write("files.toml", "scene = \"sub/shaken.toml\"\n[axes]\nfile = [\"a.AT2\", \"b.AT2\"]\n");
+    folder.succeeds("sweep files.toml --out f.csv");
+    let error = folder.table("f.csv").row(1).text("error").to_string();
+    let told = ["axis `excitation.horizontal.file`: sub/b.AT2: ", "relative to sub/shaken.toml"];
+    assert!(told.iter().all(|part| error.contains(part)) && !error.contains("line"), "{error}");
 }
 
 #[test]

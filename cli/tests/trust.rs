@@ -47,6 +47,8 @@ fn a_chaotic_run_is_not_determined_in_text_summary_figure_and_report() {
     let band = folder.read("with/companions.csv");
     folder.write("with/companions.csv", band.replacen("\n0.0,", "\nnought,", 1));
     folder.refused("report with", &["companions.csv", "line 2"]);
+    std::fs::remove_file(folder.path("with/companions.csv")).expect("it is there");
+    folder.refused("report with", &["companions.csv", "No such file"]);
 }
 
 #[test]

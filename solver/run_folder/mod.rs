@@ -64,6 +64,12 @@ pub enum FolderError {
         /// The path of the folder.
         path: PathBuf,
     },
+    /// A file has the name of the folder.
+    #[error("{}: a file has this name; choose another folder", path.display())]
+    NoFolder {
+        /// The path of the file.
+        path: PathBuf,
+    },
     /// A file cannot be read.
     #[error("{}: {source}; {AGAIN}", path.display())]
     Read {

@@ -150,8 +150,11 @@ impl Folder {
     /// Creates the folder if it is missing, and checks by a test file that it can be written to, before any work is done.
     ///
     /// # Errors
-    /// [`FolderError::Write`] or [`FolderError::Taken`]
+    /// [`FolderError::Write`], [`FolderError::NoFolder`] or [`FolderError::Taken`]
     pub fn create(path: &Path) -> Result<Folder, FolderError> {
+        if path.is_file() {
+            return Err(FolderError::NoFolder { path: path.into() });
+        }
         std::fs::create_dir_all(path).map_err(|source| FolderError::Write { path: path.into(), source })?;
         draft::remove_abandoned(path);
         let folder = Folder(path.into());

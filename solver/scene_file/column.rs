@@ -4,36 +4,43 @@ use super::derived::Derived;
 use super::file_kind::FileKind;
 use super::table::{Cause, Table, Wrong};
 use crate::column::{Block, Column, MOST_BLOCKS, Shape};
-use crate::scene::Look;
+use crate::scene::{LENGTHS, Look};
 use std::f64::consts::TAU;
 
 /// The blocks, scaled to `[size]` where that is given.
 pub(super) fn column(root: &mut Table, gravity: f64, derived: &mut Vec<Derived>) -> Result<(Column, Vec<Look>), Wrong> {
     let size_table = root.table("size")?;
     let (blocks, looks): (Vec<Block>, Vec<Look>) = blocks(root, derived)?.into_iter().unzip();
-    let of = |blocks: Vec<Block>| {
-        let column = Column::new(blocks, gravity);
-        column.map_err(|error| root.wrong("block", error.to_string(), "correct the block"))
-    };
-    let column = of(blocks)?;
+    let column =
+        Column::new(blocks, gravity).map_err(|error| root.wrong("block", error.to_string(), "correct the block"))?;
     let plain = looks.iter().all(|look| *look == Look::default());
     let shapes: Vec<Shape> = looks.iter().map(|look| look.shape).collect();
     let looks = if plain { Vec::new() } else { looks };
     let Some(mut table) = size_table else { return Ok((column, looks)) };
     let size = Size::read(&mut table)?;
     // First the slenderness, by a factor of the widths. Then `p` or the radius (kept by default), by one factor of widths and heights.
-    let stretch = |column: &Column, factors: [f64; 2]| {
-        of(column.blocks().iter().zip(&shapes).map(|(block, shape)| stretched(block, *shape, factors)).collect())
+    let stretch = |column: &Column, factors: [f64; 2], key: &str| {
+        let stretched = |(block, shape): (&Block, &Shape)| stretched(block, *shape, factors);
+        let blocks: Vec<Block> = column.blocks().iter().zip(&shapes).map(stretched).collect();
+        let is_held = |block: &Block| LENGTHS.contains(&block.half_width()) && LENGTHS.contains(&block.half_height);
+        let scaled = Column::new(blocks, gravity).ok().filter(|scaled| scaled.blocks().iter().all(is_held));
+        scaled.ok_or_else(|| {
+            let factor = factors[0];
+            let remedy =
+                format!("scale to half-widths and half-heights of {:e} to {:e} m", LENGTHS.start(), LENGTHS.end());
+            table.wrong(key, format!("it multiplies the sizes of the blocks by {factor:e}"), &remedy)
+        })
     };
     let radius = column.stack(0).radius();
     let wider = size.alpha.map_or(1.0, |alpha| libm::tan(alpha) / libm::tan(column.slenderness()));
-    let slender = stretch(&column, [wider, 1.0])?;
+    let slender = stretch(&column, [wider, 1.0], "alpha")?;
     let whole = slender.stack(0);
     let larger = match size.p {
         Some(p) => (whole.frequency_parameter() / p).powi(2),
         None => size.radius.unwrap_or(radius) / whole.radius(),
     };
-    let scaled = stretch(&slender, [larger; 2])?;
+    let size_key = ["p", "rocking_period", "R"].into_iter().find(|key| table.has(key)).unwrap_or("alpha");
+    let scaled = stretch(&slender, [larger; 2], size_key)?;
     // Masses and inertias derived before the scaling are not those of the scaled column.
     derived.clear();
     Ok((scaled, looks))

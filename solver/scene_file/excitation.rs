@@ -85,6 +85,9 @@ pub(super) fn check_uplift(table: &Table, column: &Column) -> Result<(), Wrong> 
     }
 }
 
+/// What paths of records are relative to, in errors.
+pub(crate) const FILE_THAT_NAMES: &str = "the file that names it";
+
 impl Reader<'_> {
     /// The ground motion of a scene.
     pub(super) fn excitation(&self, root: &mut Table, column: &Column) -> Result<Excitation, Fault> {
@@ -196,7 +199,7 @@ impl Reader<'_> {
         }
         let refuse = |problem: String| Fault::of_record(table, key, path.clone(), problem);
         let bytes = rocking_ground::read_file(&path)
-            .map_err(|error| refuse(format!("{error}; its path is relative to the file that names it")))?;
+            .map_err(|error| refuse(format!("{error}; its path is relative to {FILE_THAT_NAMES}")))?;
         let record = Record::from_bytes(&bytes, options).map_err(|error| refuse(error.to_string()))?;
         if let Some(records) = self.records {
             records.keep(kept(), &record);

@@ -307,11 +307,18 @@ fn output(root: &mut Table, scene: &mut Scene) -> Result<(), Wrong> {
             }
             scene.output_times = times;
         }
-        for name in table.settings("columns")?.unwrap_or_default() {
+        let columns = table.settings("columns")?;
+        if columns.is_none() && table.has("columns") {
+            return Err(table.wrong("columns", "a table stands here".into(), "give a list of names"));
+        }
+        for name in columns.unwrap_or_default() {
             let name = name.to_string();
             let column = OutputColumn::parse(&name);
-            let wrong = || table.no_such("columns", "column", &name, &OutputColumn::NAMES);
-            scene.output_columns.push(column.ok_or_else(wrong)?);
+            let column = column.ok_or_else(|| table.no_such("columns", "column", &name, &OutputColumn::NAMES))?;
+            if scene.output_columns.contains(&column) {
+                return Err(table.wrong("columns", format!("`{name}` stands there twice"), "name each column once"));
+            }
+            scene.output_columns.push(column);
         }
         table.close()?;
     }

@@ -11,11 +11,13 @@ use crate::names::named;
 use crate::response::{Fate, ModeName, Response};
 use crate::run::{Simulator, SolveError};
 use crate::scene::{Scene, Wanted};
+use crate::scene_file::excitation::FILE_THAT_NAMES;
 use crate::scene_file::{SceneFileError, Setting, Template, VariedExcitation};
 use crate::trust::{TrustOptions, follow_run};
 use crate::validity::{ContactNeeds, Validity};
 use rayon::prelude::*;
 use std::ops::{ControlFlow, Range};
+use std::path::PathBuf;
 
 /// A key of the scene and the values it takes.
 #[derive(Clone, Debug, PartialEq)]
@@ -197,6 +199,16 @@ pub enum PointError {
         /// What to do.
         remedy: String,
     },
+    /// The record that an axis names, or its component, is not as it should be.
+    #[error("axis `{axis}`: {}: {problem}", record.display())]
+    Record {
+        /// Key of the axis.
+        axis: String,
+        /// The record's file.
+        record: PathBuf,
+        /// What is wrong, with line and column of the record, and what to do.
+        problem: String,
+    },
     /// The run of the point could not be finished.
     #[error(transparent)]
     Solve(#[from] SolveError),
@@ -295,9 +307,15 @@ impl Sweep {
     /// The error of a point as that of the axis that has the value at fault; the base scene, whose line it names, may have a sound one.
     fn of_axis(&self, error: PointError) -> PointError {
         let PointError::Scene(scene) = &error else { return error };
+        let is_axis = |key: &str| self.axes.iter().any(|axis| axis.key == key);
         match &**scene {
-            SceneFileError::Scene { key, problem, remedy, .. } if self.axes.iter().any(|axis| axis.key == *key) => {
+            SceneFileError::Scene { key, problem, remedy, .. } if is_axis(key) => {
                 PointError::Axis { axis: key.clone(), problem: problem.clone(), remedy: remedy.clone() }
+            }
+            SceneFileError::Record { key, record, problem, .. } if is_axis(key) => {
+                let base = self.template.file().display().to_string();
+                let problem = problem.replace(FILE_THAT_NAMES, &base);
+                PointError::Record { axis: key.clone(), record: record.clone(), problem }
             }
             _ => error,
         }

@@ -11,9 +11,7 @@ use std::path::{Path, PathBuf};
 
 /// Writes a scene of `blocks` equal blocks, excited by `record`, or else by a pulse. An existing file is written over only with `force`.
 pub fn init(file: &Path, blocks: usize, record: Option<&Path>, force: bool) -> Result<(), Failure> {
-    if file == Path::new("-") {
-        return Err(Failure::File(file.into(), "a new scene is written into a file, not to standard output".into()));
-    }
+    output::check(&[file.into()], &[])?;
     if file.exists() && !force {
         return Err(Failure::Taken(file.into()));
     }

@@ -6,7 +6,7 @@
 use crate::commands::sweep::{self, OUTCOME, TIME, TableDigest, columns, digest_file, inputs_of};
 use crate::commands::{fractiles, probability};
 use crate::error::{Failure, at};
-use crate::files::{folder_of, make_readable};
+use crate::files::{folder_of, make_readable, temporary};
 use crate::output;
 use crate::table::column::{Column, Rows};
 #[cfg(feature = "parquet")]
@@ -50,7 +50,7 @@ pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(),
 
     let failed = |error: std::io::Error| Failure::File(out.into(), error.to_string());
     let target = output::target(out)?;
-    let merged = tempfile::NamedTempFile::new_in(folder_of(&target)).map_err(failed)?;
+    let merged = temporary(folder_of(&target)).map_err(failed)?;
     let rows = match format {
         Format::Csv => join_csv(&tables, expected.as_ref(), merged.as_file(), failed)?,
         #[cfg(feature = "parquet")]
