@@ -2,11 +2,12 @@
 
 use super::{Search, Solution};
 use crate::contact::ENERGY_ROUNDING;
-use crate::friction::chain::Chain;
+use crate::friction::chain::{Chain, Rates};
 use crate::friction::contact_problem::Question;
 use crate::friction::joint::{Joint, Slip, joined_above};
 use crate::friction::rows::{Answer, Rows};
 use crate::mechanics::kinematics::{lower, relative};
+use crate::numerics::elimination::Factors;
 use crate::numerics::per_block::PerBlock;
 
 /// Least change of some velocity that makes an impact, as a share of the speed at work.
@@ -68,25 +69,37 @@ impl Search<'_> {
         Search::new(self.column, self.now, self.touch, self.friction, question).complementary(&self.friction.kinetic)
     }
 
-    /// The answer to an impact after restitution at an interface: its relative rate is multiplied by `factor`, through an equal and opposite moment
-    /// impulse there, in the states of the plastic solution (docs/book/model.md, sections 5 and 17). `None` where that would raise the energy, or break
-    /// a condition of contact.
-    pub fn rebound(&self, plastic: &Solution, interface: usize, factor: f64) -> Option<Answer> {
+    /// The answer to an impact after restitution at some interfaces, base first: each relative rate is multiplied by its factor, through an equal and
+    /// opposite moment impulse there, in the states of the plastic solution (docs/book/model.md, sections 5 and 17). `None` where that would raise the
+    /// energy, or break a condition of contact.
+    pub fn rebound(&self, plastic: &Solution, rebounding: &[(usize, f64)]) -> Option<Answer> {
         let Question::Impact(before) = &self.question else { return None };
         let joints = &plastic.joints;
         let configuration = self.configuration(joints);
         let chain = Chain::new(self.column, &configuration);
         let rows = Rows::new(&chain, joints, &self.friction.kinetic, &self.centres);
         let plastic = &plastic.answer.motion;
-        let spread = rows.turned_by_moment(interface)?;
-        let (rate, compliance) = (relative(&plastic.omega, interface), relative(&spread.omega, interface));
-        if compliance.is_nan() || compliance <= 0.0 {
-            return None;
+        let turned: Vec<Rates> =
+            rebounding.iter().map(|(interface, _)| rows.turned_by_moment(*interface)).collect::<Option<_>>()?;
+        let mut compliances = Factors::with_size(rebounding.len());
+        for (row, (interface, _)) in rebounding.iter().enumerate() {
+            for (column, turned) in turned.iter().enumerate() {
+                *compliances.entry(row, column) = relative(&turned.omega, *interface);
+            }
         }
-        let mut rates = plastic.plus((factor - 1.0) * rate / compliance, &spread);
-        // Exactly: with a factor of zero, the rounding of the sum would be a hop.
-        let rebound = lower(&rates.omega, interface) + factor * rate;
-        rates.omega[joined_above(joints, interface)].fill(rebound);
+        compliances.factorise().filter(|()| compliances.is_positive())?;
+        let change = |&(interface, factor): &(usize, f64)| (factor - 1.0) * relative(&plastic.omega, interface);
+        let mut impulses: Vec<f64> = rebounding.iter().map(change).collect();
+        compliances.solve(&mut impulses);
+        let mut rates = plastic.clone();
+        for (impulse, turned) in impulses.iter().zip(&turned) {
+            rates = rates.plus(*impulse, turned);
+        }
+        // Exactly, base first: with a factor of zero, the rounding of the sum would be a hop.
+        for &(interface, factor) in rebounding {
+            let rebound = lower(&rates.omega, interface) + factor * relative(&plastic.omega, interface);
+            rates.omega[joined_above(joints, interface)].fill(rebound);
+        }
         let answer = rows.given(rates, before);
         let gains =
             chain.motion(&answer.motion).energy(self.column) > before.energy(self.column) * (1.0 + ENERGY_ROUNDING);
@@ -99,5 +112,58 @@ impl Search<'_> {
             _ => self.required(joints, &answer, i, self.slack).is_none(),
         };
         (!gains && (0..joints.len()).all(holds)).then_some(answer)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::column::{Block, Column};
+    use crate::friction::chain::Chain;
+    use crate::friction::contact_problem::{Coefficients, Touch};
+    use crate::friction::joint::{Configuration, Face};
+
+    /// Interfaces whose faces meet in one instant: each relative rate becomes its multiple, whatever the other one does. One at a time, the second changed
+    /// what the first had become.
+    #[test]
+    fn every_interface_that_closes_rebounds_by_its_own_factor() {
+        let blocks = vec![Block::rectangle(0.2, 1.0, 1.0), Block::rectangle(0.2, 0.8, 1.0)];
+        let column = Column::new(blocks, 9.81).expect("valid");
+        let friction = Coefficients { fixed: vec![5.0; 2], kinetic: vec![5.0; 2] };
+        let relative_rates = |omega: &[f64]| [0, 1].map(|interface| relative(omega, interface));
+        let mut compared = 0;
+        for (side, upper) in
+            [1, -1].into_iter().flat_map(|side| (1..20).map(move |tenths| (side, 0.1 * f64::from(tenths))))
+        {
+            let corner = |side| Joint::Corner(side, Face::Lower, Slip::Sticks);
+            let now = Configuration {
+                joints: PerBlock::from_slice(&[corner(1), corner(side)]),
+                theta: PerBlock::filled(0.0, 2),
+                omega: PerBlock::from_slice(&[-1.0, -1.0 - f64::from(side) * upper]),
+                slide: PerBlock::filled(0.0, 2),
+                slide_rate: PerBlock::filled(0.0, 2),
+                apart: PerBlock::filled([0.0; 2], 2),
+                apart_rate: PerBlock::filled([0.0; 2], 2),
+            };
+            let chain = Chain::new(&column, &now);
+            let question = Question::Impact(chain.motion(&Rates::of(&now)));
+            let search = Search::new(&column, &now, &[Touch::Faces; 2], &friction, question);
+            let plastic = search.solve_from(PerBlock::from_slice(&[corner(-1), corner(-side)])).expect("an answer");
+            if !plastic.joints.iter().all(|joint| joint.is_corner() && joint.sticks()) {
+                continue;
+            }
+            let before = relative_rates(&plastic.answer.motion.omega);
+            for factors in [[0.9, 1.0], [1.0, 0.9], [0.8, 0.95]] {
+                let Some(answer) = search.rebound(&plastic, &[0, 1].map(|i| (i, factors[i]))) else { continue };
+                let after = relative_rates(&answer.motion.omega);
+                // Sums and differences of two rates.
+                assert!(
+                    (0..2).all(|i| (after[i] - factors[i] * before[i]).abs() < 1e-15),
+                    "{factors:?} {after:?} {before:?}"
+                );
+                compared += 1;
+            }
+        }
+        assert!(compared > 10, "{compared}");
     }
 }

@@ -170,12 +170,15 @@ impl PendingTransition<'_> {
 
     /// The answer with the scene's restitution; the plastic one if nothing rebounds, or restitution is left out, which is counted. `closed` are the
     /// interfaces whose faces have met: a corner that lands transmits no moment.
-    fn rebounding(&mut self, search: &Search, plastic: &Solution, mut closed: impl Iterator<Item = usize>) -> Answer {
+    fn rebounding(&mut self, search: &Search, plastic: &Solution, closed: impl Iterator<Item = usize>) -> Answer {
         let kappa = &self.problem.kappa;
         let none_slides = plastic.joints.iter().all(|joint| joint.sticks() || *joint == Joint::Free);
-        let rebounds = |&i: &usize| kappa[i] != 1.0 && plastic.joints[i].is_corner();
-        let Some(interface) = closed.find(rebounds) else { return plastic.answer.clone() };
-        let rebound = if none_slides { search.rebound(plastic, interface, kappa[interface]) } else { None };
+        let rebounding: Vec<(usize, f64)> =
+            closed.filter(|&i| plastic.joints[i].is_corner()).map(|i| (i, kappa[i])).collect();
+        if rebounding.iter().all(|(_, factor)| *factor == 1.0) {
+            return plastic.answer.clone();
+        }
+        let rebound = if none_slides { search.rebound(plastic, &rebounding) } else { None };
         self.without_restitution += usize::from(rebound.is_none());
         rebound.unwrap_or_else(|| plastic.answer.clone())
     }
