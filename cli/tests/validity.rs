@@ -38,8 +38,12 @@ fn durations_of_friction_demand_are_those_of_the_rows() {
                half_height = 0.8915249772159544\n[initial]\ntheta = [0.05659501210508417, 0.05659501210508417]\n";
     let at_rest = "[[block]]\nhalf_width = 0.5\nhalf_height = 1.0\n[excitation.horizontal]\nkind = \"record\"\nunits = \"g\"\ndt = 0.1\n\
                    accel = [0.45, -0.45, 0.45, -0.45, 0.45, -0.45, 0.45, -0.45, 0.45, -0.45, 0.45, -0.45, 0.45, -0.45, 0.45, -0.45, 0.45]\n";
+    // Beyond its balance, the block moves inwards, turns, and comes out past its start.
+    let returning =
+        "[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.6\n[initial]\ntheta = [0.345]\nomega = [-0.1]\n";
     let mut reached = 0;
     for (column, method, t_end) in [
+        (returning, "auto", 1.5),
         (block, "auto", 4.0),
         (wide, "auto", 1.5),
         (wide, "kutta-merson", 1.5),
@@ -74,7 +78,7 @@ fn durations_of_friction_demand_are_those_of_the_rows() {
             }
         }
     }
-    assert_eq!(reached, 5, "durations above zero");
+    assert_eq!(reached, 6, "durations above zero");
 }
 
 #[test]

@@ -165,7 +165,8 @@ impl Swing {
         }
     }
 
-    /// Time `[s]` until `ψ` is passed at the rate `v`, inwards (`v < 0`) or outwards; infinite if the start is the balance itself, at rest.
+    /// Time `[s]` until `ψ` is passed at the rate `v`, inwards (`v < 0`) or outwards; negative if it was passed so before the start, infinite if the start
+    /// is the balance itself, at rest.
     pub fn time_to(&self, psi: f64, v: f64) -> f64 {
         if psi == self.psi && v == -self.v {
             // Out and back to the same angle.

@@ -19,8 +19,6 @@ use rocking_codegen::pattern::Interface;
 struct Leg {
     from: f64,
     to: f64,
-    /// Whether the swing passes this part after its crest.
-    is_back: bool,
     /// How often the swing passes this part.
     weight: f64,
 }
@@ -184,20 +182,14 @@ impl Phase {
         let turn = if swing.has_turned() { swing.course.swing.turning_point() } else { None };
         let (start, end) = (swing.course.start, swing.end[0]);
         let Some(turn) = turn else {
-            let whole = Leg { from: start, to: end, is_back: false, weight: 1.0 };
+            let whole = Leg { from: start, to: end, weight: 1.0 };
             return self.forces_of_leg(problem, &swing.course, whole, note);
         };
-        // Back from the crest, the swing passes its outward part again, as far as it comes, and then angles before its start.
+        // Back from its turning point, the swing passes the way to it again, as far as it comes, and then angles before its start.
         let comes_before = (end - turn).abs() > (start - turn).abs();
         let legs = match comes_before {
-            true => [
-                Leg { from: start, to: turn, is_back: false, weight: 2.0 },
-                Leg { from: start, to: end, is_back: true, weight: 1.0 },
-            ],
-            false => [
-                Leg { from: start, to: end, is_back: false, weight: 1.0 },
-                Leg { from: end, to: turn, is_back: false, weight: 2.0 },
-            ],
+            true => [Leg { from: start, to: turn, weight: 2.0 }, Leg { from: start, to: end, weight: 1.0 }],
+            false => [Leg { from: start, to: end, weight: 1.0 }, Leg { from: end, to: turn, weight: 2.0 }],
         };
         legs.into_iter().for_each(|leg| self.forces_of_leg(problem, &swing.course, leg, note));
     }
@@ -207,7 +199,7 @@ impl Phase {
         &mut self,
         problem: &Problem,
         course: &Course,
-        Leg { from, to, is_back, weight }: Leg,
+        Leg { from, to, weight }: Leg,
         note: &mut dyn FnMut(&Panel),
     ) {
         if from == to {
@@ -226,10 +218,9 @@ impl Phase {
             self.evaluate_forces_at_angle(problem, course, at(panel as f64 + 0.5));
             let middle = self.forces.last.clone();
             self.evaluate_forces_at_angle(problem, course, at(panel as f64 + 1.0));
-            let moves_out = to > from && !is_back;
             let time = |place: f64| {
                 let size = course.swing.rate_at(at(place)).unwrap_or(0.0);
-                self.t + course.swing.time_to(at(place), if moves_out { size } else { -size })
+                self.t + course.swing.time_to(at(place), if to > from { size } else { -size })
             };
             let forces = [&start, &middle, &self.forces.last].map(|forces| &forces[..]);
             note(&Panel { forces, is_monotonic: false, time: &|share| time(panel as f64 + share), weight });

@@ -261,6 +261,17 @@ pub fn violation(scene: &Scene, response: &Response) -> Option<String> {
     if response.status == StopReason::AtRest && response.events.last().is_some_and(|last| last.after.dof() > 0) {
         return Some("at rest with an open interface".into());
     }
+    if let Some(validity) = &response.validity {
+        // Ends of panels are times of the run to rounding.
+        let (end, slack) = (scene.options.t_end, 1e-9 * scene.options.t_end);
+        for needs in &validity.contacts {
+            let times = [needs.friction_demand.t, needs.min_normal_force.t];
+            let spans = needs.above.iter().map(|above| above.time).chain([needs.tension.time]);
+            if times.into_iter().chain(spans).any(|time| !(-slack..=end + slack).contains(&time)) {
+                return Some(format!("what a contact needs is at impossible times: {needs:?}"));
+            }
+        }
+    }
     let spent: f64 = response.time_in_mode.values().sum();
     let until = if response.status == StopReason::AtRest { scene.options.t_end } else { response.t_final };
     if (spent - until).abs() > 1e-9 * until {
