@@ -43,11 +43,11 @@ impl BlockMotion {
 /// Rates of all coordinates, by block and interface; in an answer, their accelerations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rates {
-    /// Of the angles of the blocks `[rad/s]`.
+    /// Rates of the blocks' angles `[rad/s]`.
     pub omega: PerBlock<f64>,
-    /// Of the slides `[m/s]`.
+    /// Rates of the slides `[m/s]`.
     pub slide: PerBlock<f64>,
-    /// Of free interfaces `[m/s]`.
+    /// Rates of the distances at free interfaces `[m/s]`.
     pub apart: PerBlock<Vec2>,
 }
 

@@ -34,7 +34,7 @@ enum Direction {
     Axis(usize),
 }
 
-/// A translation as a coordinate.
+/// A free translation among the coordinates: that of a slide, or one of the two of a flight.
 #[derive(Clone, Copy, Debug)]
 struct Translation {
     /// Place among the coordinates.

@@ -188,9 +188,9 @@ impl<'s> SeriesSpan<'s> {
         visit(&self.of_values(sign * beyond, |k| sign * f64::from(side) * slide[k]));
     }
 
-    /// Position of a corner of a free interface relative to the face of the other block `[m]`: distance to the right of the face's middle, gap to the
-    /// face, and half of the face's width.
-    pub fn gap(&self, corner: Corner) -> ([Powers; 2], f64) {
+    /// Path of a corner of a free interface over the step, relative to the face of the other block: polynomials of its distance to the right of the face's
+    /// middle and of its gap `[m]`, and the half-width of the face `[m]`.
+    pub fn corner_path(&self, corner: Corner) -> ([Powers; 2], f64) {
         let Corner { interface, side, face } = corner;
         let [in_lower, in_upper, turn] = self.pose(interface);
         let blocks = self.column.blocks();

@@ -73,13 +73,13 @@ pub fn guards(joints: &[Joint], kinetic: &[f64]) -> Vec<Guard> {
                     guards.push(Guard::Collapse(i));
                 }
             }
-            Joint::Corner(_, face, slip) => {
+            Joint::Corner(_, _, slip) => {
                 // Coinciding corners that stick are bounded by the sum of their cones alone, which may hold what one face would have to pull.
                 if !joint.is_corner_on_corner() || *slip != Slip::Sticks {
                     guards.push(Guard::Press(i));
                 }
                 guards.push(Guard::Close(i));
-                if matches!(slip, Slip::Slides(_)) && (i > 0 || *face != Face::Lower) {
+                if matches!(slip, Slip::Slides(_)) && i > 0 {
                     guards.extend([Guard::Edge(i), Guard::Collapse(i)]);
                 }
             }

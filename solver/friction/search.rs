@@ -165,8 +165,8 @@ impl<'a> Search<'a> {
         Some(self.with_flat_slides(self.with_fewest_slides(found)))
     }
 
-    /// Where kinetic friction is less than static friction, contacts may slide of which others would do, or fewer. Of the slides that may begin instead,
-    /// those with the fewest changes hold, then those with the least energy of the change. Several being admissible, the instant is ambiguous.
+    /// With less kinetic than static friction, several sets of slides may be admissible: that with the fewest slides that begin holds, then that with the least
+    /// energy of the change. If there are several, the instant is ambiguous.
     fn with_fewest_slides(&self, mut found: Solution) -> Solution {
         let Coefficients { fixed, kinetic } = self.friction;
         let begun = |joints: &[Joint]| (0..joints.len()).filter(|i| self.begins_to_slide(joints, *i)).count();

@@ -9,31 +9,31 @@ use std::array::from_fn;
 /// What a program with translations reads: [`Carried`] and [`MovingState`] with lists in place of arrays.
 #[derive(Clone, Debug, Default)]
 pub struct MovingLists {
-    /// Per link.
+    /// Moments of inertia of the links about their pivots `[kg m²]`.
     pub inertia: Vec<f64>,
-    /// Per link.
+    /// First moments of the links about their pivots `[kg m]`.
     pub moment: Vec<[f64; 2]>,
-    /// Per link.
+    /// From the pivot of each link to the next one `[m]`.
     pub lever: Vec<[f64; 2]>,
-    /// Per translation.
+    /// Masses that the translations move `[kg]`.
     pub mass: Vec<f64>,
-    /// Per translation and link; the links of one translation are adjacent.
+    /// First moments of these masses about the pivots of the links that turn them `[kg m]`; the links of one translation are adjacent.
     pub carried: Vec<[f64; 2]>,
-    /// Per translation.
+    /// Coefficients of friction with the signs of the slides, dimensionless, per translation; zero in flight.
     pub lift: Vec<f64>,
-    /// Per link.
+    /// Cosines of the links' angles.
     pub cos: Vec<f64>,
-    /// Per link.
+    /// Sines of the links' angles.
     pub sin: Vec<f64>,
-    /// Per link.
+    /// Rates of the links' angles `[rad/s]`.
     pub omega: Vec<f64>,
-    /// Per translation.
+    /// Horizontal components of the directions `(cos, -sin)` along which the translations move.
     pub face_cos: Vec<f64>,
-    /// Per translation.
+    /// Minus the vertical components of these directions.
     pub face_sin: Vec<f64>,
-    /// Per translation.
+    /// Rates at which these directions turn `[rad/s]`.
     pub face_omega: Vec<f64>,
-    /// Per translation.
+    /// Rates of the translations `[m/s]`.
     pub rate: Vec<f64>,
     /// Horizontal ground acceleration and effective gravity `[m/s²]`.
     pub ground: [f64; 2],

@@ -166,7 +166,7 @@ fn zero_between(
     Some(before.t + share * span)
 }
 
-/// At rest the whole weight stands on each interface, and the ground drags it along. Base first, length N.
+/// Contact forces of the column at rest, base first, length N: the weight above each interface and its inertia.
 pub fn contact_forces(column: &Column, ground: Ground) -> PerBlock<ContactForce> {
     let force = |interface: usize| {
         let mass = column.mass_above(interface);

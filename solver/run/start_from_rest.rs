@@ -167,9 +167,12 @@ impl Scene {
     }
 
     /// When the ground motion first slides each interface of the column at rest `[s]`, base first, if none of the others opens or slides before. `None`
-    /// if it does not slide up to the end of the run, or the scene has no friction. Both components of the ground motion count.
+    /// if it does not slide up to the end of the run, or the scene has no friction or is not valid. Both components of the ground motion count.
     pub fn slips_at_rest(&self) -> Vec<Option<f64>> {
-        let Some(friction) = &self.friction else { return vec![None; self.column.len()] };
+        // Lists of coefficients of another length are a fault of the scene.
+        let Some(friction) = self.friction.as_ref().filter(|_| self.check().is_ok()) else {
+            return vec![None; self.column.len()];
+        };
         let fixed = friction.per_interface(self.column.len()).fixed;
         self.first_below_zero(|interface, side| RestGuard::cone(fixed[interface], side))
     }
@@ -228,7 +231,8 @@ pub(super) fn is_thrown_open(problem: &Problem, segment: usize, t: f64) -> bool 
     least_margin(problem, segment, t) < 0.0
 }
 
-/// Whether some interface may open under the acceleration at `t`. Margins that rounding may decide count: the contact problem decides them.
+/// Whether some interface may open under the acceleration at `t`. True also where a margin is above zero but within rounding: the contact problem then
+/// decides.
 pub(crate) fn may_open(problem: &Problem, segment: usize, t: f64) -> bool {
     least_margin(problem, segment, t) < CONTACT_PROBLEM_MARGIN
 }

@@ -42,10 +42,10 @@ const CLEAR_GAP_FACTOR: f64 = 1.999;
 
 /// Panels per radian that the fastest link turns in a step: forces vary with sines and squares of rates, and a parabola over a twentieth of
 /// a radian is right to 1e-4 of the weight.
-pub(super) const PANELS_PER_TURN: f64 = 20.0;
+pub(super) const PANELS_PER_RADIAN_TURNED: f64 = 20.0;
 
 /// Panels per radian of the ground motion.
-const PANELS_PER_RADIAN: f64 = 2.0;
+const PANELS_PER_RADIAN_OF_GROUND: f64 = 2.0;
 
 /// Largest number of panels of a step. It is reached at the loosest tolerances only, where forces are then not fully resolved.
 const MOST_PANELS: f64 = 64.0;
@@ -324,7 +324,9 @@ impl Phase {
         let turned = step.h * rates.fold(0.0f64, |largest, rate| largest.max(rate.abs()));
         let segment = &problem.ground[self.segment];
         let radians = step.h * segment.horizontal.omega().max(segment.vertical.omega());
-        let panels = (PANELS_PER_TURN * turned + PANELS_PER_RADIAN * radians).ceil().clamp(1.0, MOST_PANELS) as usize;
+        let panels = (PANELS_PER_RADIAN_TURNED * turned + PANELS_PER_RADIAN_OF_GROUND * radians)
+            .ceil()
+            .clamp(1.0, MOST_PANELS) as usize;
         let at = |place: f64| place / panels as f64;
         let (mut start, mut end) = (self.forces.start.forces.clone(), last.clone());
         for panel in 0..panels {

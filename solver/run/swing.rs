@@ -5,7 +5,7 @@
 
 use super::phase::Phase;
 use super::problem::Problem;
-use super::step::PANELS_PER_TURN;
+use super::step::PANELS_PER_RADIAN_TURNED;
 use super::stretch::{Ended, Found, Over, Panel};
 use super::stretch_kinds::{Course, Kind, SwingStretch};
 use crate::mechanics::harmonics::Critical;
@@ -205,7 +205,7 @@ impl Phase {
         if from == to {
             return;
         }
-        let panels = (PANELS_PER_TURN * (to - from).abs()).ceil().max(1.0) as usize;
+        let panels = (PANELS_PER_RADIAN_TURNED * (to - from).abs()).ceil().max(1.0) as usize;
         let mut start = if from == course.start {
             self.evaluate_start_forces(problem);
             self.forces.start.forces.clone()

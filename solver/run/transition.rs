@@ -11,8 +11,8 @@ use crate::numerics::per_block::{PerBlock, Size, for_size};
 use crate::response::EventKind;
 use rocking_codegen::pattern::{Interface, Pattern};
 
-/// Limit of the events in one instant, divided by the number of blocks plus one: at it, at one and a half and beyond twice of it [`break_cycle`] acts. A lower
-/// limit would cut short instants at which several interfaces are critical.
+/// Events in one instant, per block and one more, that count as a cycle: [`break_cycle`] acts at this number, at one and a half of it, and beyond twice of it. A
+/// lower number would cut short instants at which several interfaces are critical.
 const EVENTS_AT_ONCE: usize = 8;
 
 /// Gaps of given angles below this, relative to the angles, are rounding (0.1 + 0.2 against 0.3) and count as closed.
@@ -203,9 +203,9 @@ fn most_at_once(state: &State) -> usize {
     EVENTS_AT_ONCE * (state.theta.len() + 1)
 }
 
-/// The transition that breaks a cycle of events in one instant: open interfaces without a gap close, momentum conserved. It counts as a separation.
-/// `None` unless the number of events is just one of the two at which this is tried: at the limit for interfaces at rest, at one and a half of it for all
-/// without a gap.
+/// The transition that breaks a cycle of events in one instant: open interfaces close, momentum conserved, and a separation is counted. When the number of
+/// events reaches [`EVENTS_AT_ONCE`] per block and one more, those close that have neither gap nor rate; at one and a half of it, all without a gap. `None` at any
+/// other number.
 ///
 /// # Errors
 /// [`SolveError::Stalled`] beyond twice the limit.

@@ -341,7 +341,7 @@ fn counted((verdict, count): (Option<Verdict>, usize)) -> String {
     }
 }
 
-/// What several columns do.
+/// The verb of a verdict in the plural: `stand`, `overturn`.
 fn plural(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Stands => "stand",

@@ -30,7 +30,7 @@ impl Verdict {
         }
     }
 
-    /// The verdict on the time of a run that ended for this reason, whatever comes after it.
+    /// The verdict that the reason of a run's end gives, whether or not the column may overturn afterwards.
     pub(super) fn up_to_the_end(status: StopReason) -> Verdict {
         match status {
             status if status.overturns() => Verdict::Overturns,

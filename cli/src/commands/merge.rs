@@ -56,8 +56,9 @@ pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(),
         #[cfg(feature = "parquet")]
         Format::Parquet => join_parquet(&tables, expected.as_ref(), merged.as_file(), failed)?,
     };
+    let first = shards.iter().find(|path| digest_file(path).is_file()).unwrap_or(&shards[0]);
     for path in shards {
-        check_digest(path, &shards[0], expected.as_ref())?;
+        check_digest(path, first, expected.as_ref())?;
     }
     let report = match &expected {
         Some(expected) => format!("all points of {}", shown(expected.file)),
@@ -103,7 +104,7 @@ impl ExpectedSweep<'_> {
     }
 }
 
-/// Refuses a table whose digest is not that of the sweep, or of the first table if no sweep is given.
+/// Refuses a table whose digest is not that of the sweep, or, if no sweep is given, of the first table that has one.
 /// A table passes if it has no digest, or if there is none to compare it with.
 fn check_digest(path: &Path, first: &Path, expected: Option<&ExpectedSweep>) -> Result<(), Failure> {
     let of_table = |table: &Path| read_file(digest_file(table)).ok().and_then(|bytes| String::from_utf8(bytes).ok());

@@ -91,7 +91,7 @@ pub fn record(arguments: &arguments::Record, window: Option<Window>) -> Result<(
     print(&text)
 }
 
-/// Two times `[s]` from the first sample.
+/// The span that `--trim` keeps, from the first sample on `[s]`; `to` may be infinite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
     from: f64,

@@ -18,8 +18,8 @@ const JUMP_SHARE: f64 = 1e-9;
 const APPROACH_SHARES: [f64; 3] = [1e-3, 1e-5, 1e-7];
 
 impl Search<'_> {
-    /// The states after a jam (Painlevé): an impact in which nothing closes, after which the motion is another one and `excluded` do not go on. `None` if none
-    /// are found.
+    /// The states after a jam (Painlevé): velocities jump as in an impact, although nothing closes. Neither velocities that stay what they are nor the states
+    /// `excluded` are an answer. `None` if none is found.
     pub fn solve_jam(&self, excluded: &[Joint]) -> Option<Solution> {
         let changes = |answer: &Answer| {
             let fastest = answer.change.linear.iter().fold(0.0f64, |most, v| most.max(v[0].abs() + v[1].abs()));

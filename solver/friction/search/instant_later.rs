@@ -50,7 +50,7 @@ impl Search<'_> {
         search.solve_from(search.first()).map(|found| found.joints)
     }
 
-    /// The state of coinciding corners that begin to slide, once they coincide no more, and the direction of the slide; `None` for all others.
+    /// Of coinciding corners that begin to slide: their state once they have moved apart, and the direction of the slide. `None` for any other joint.
     fn joint_an_instant_later(&self, interface: usize, joint: Joint) -> Option<(Joint, Sign)> {
         let Joint::Corner(side, _, Slip::Slides(direction)) = joint else { return None };
         let coincide = face(self.column, interface, side, self.now.slide[interface]) == Face::Both;

@@ -211,6 +211,7 @@ fn increment<V: StateVector>(h: f64, k: &[V; MAX_STAGES], terms: &[Term], out: &
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::ode::interpolant::MAX_BEYOND_CUBIC;
     use crate::numerics::ode::tableaus::{
         dop853::DOP853, dormand_prince54::DORMAND_PRINCE54, kutta_merson::KUTTA_MERSON, runge_kutta4::RUNGE_KUTTA4,
     };
@@ -284,6 +285,16 @@ mod tests {
         let mut inside = [0.0];
         interpolant.evaluate(0.3, &mut inside);
         (end_error, (inside[0] - integral(t + 0.3 * h)).abs())
+    }
+
+    /// The stepper and its dense output have room for every method.
+    #[test]
+    fn every_tableau_fits() {
+        for tableau in [&KUTTA_MERSON, &RUNGE_KUTTA4, &DORMAND_PRINCE54, &DOP853] {
+            let stages = tableau.stages.len();
+            assert!(stages <= MAX_STAGES && tableau.end_slope < MAX_STAGES, "{tableau:?}");
+            assert!(tableau.nodes.len() == stages && tableau.dense.len() <= MAX_BEYOND_CUBIC, "{tableau:?}");
+        }
     }
 
     /// A quadrature of order p integrates t^(p-1) exactly; dense output of order q, t^(q-1). 1e-13: a few roundings of

@@ -25,13 +25,19 @@ pub struct Interpolant<V> {
 /// Terms of the cubic through values and slopes at both ends.
 const CUBIC_TERMS: usize = 3;
 
-/// Terms of the longest nested form (DOP853: degree 7).
-const NESTED_TERMS: usize = 7;
+/// Largest number of terms beyond the cubic (DOP853: degree 7).
+pub(super) const MAX_BEYOND_CUBIC: usize = 4;
 
 impl<V: StateVector> Interpolant<V> {
     /// Storage for states like `zero`.
     pub fn new(zero: &V) -> Interpolant<V> {
-        Interpolant { start: 0.0, length: 0.0, x: zero.clone(), nested: vec![zero.clone(); NESTED_TERMS], terms: 1 }
+        Interpolant {
+            start: 0.0,
+            length: 0.0,
+            x: zero.clone(),
+            nested: vec![zero.clone(); CUBIC_TERMS + MAX_BEYOND_CUBIC],
+            terms: 1,
+        }
     }
 
     /// Sets the first three terms: the cubic through values and slopes at both ends.

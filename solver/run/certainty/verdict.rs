@@ -19,7 +19,7 @@ const ENERGY_DRIFT_TOLERANCES: f64 = 1e3;
 
 /// Largest share of the barrier that must be missing, however loose the tolerance. The proof holds for the motion from the present state on,
 /// whatever the tolerance; the share allows for the errors of the steps that the proof spares the run. Without this bound a whole barrier would have
-/// to be missing at a tolerance of 1e-3: nothing could be proved, and spectra took five times as long as at 1e-4.
+/// to be missing at a tolerance of 1e-3: nothing could be proved, and spectra would take five times as long as at 1e-4.
 const MOST_MISSING_SHARE: f64 = 0.1;
 
 /// Time over which pushes of the ground are summed, as a multiple of the time to overturn on a ground at rest.

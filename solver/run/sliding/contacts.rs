@@ -22,7 +22,7 @@ const FACE_SHARE: f64 = 1e-9;
 /// What a run takes for rounding, from the size of its column.
 #[derive(Clone, Copy, Debug)]
 pub struct Resolution {
-    /// Largest half-height and half-width of a block, added `[m]`.
+    /// Largest sum of half-height and half-width of one block `[m]`, [`Column::size`].
     pub size: f64,
     /// Gap between blocks that touch `[m]`.
     pub gap: f64,

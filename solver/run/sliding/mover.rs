@@ -93,7 +93,7 @@ impl<'p> Mover<'p> {
     /// Moves the column until something happens.
     ///
     /// # Errors
-    /// [`SolveError`]; [`SolveError::Cancelled`] if `progress` stops the run, which is called after so many steps.
+    /// [`SolveError`]; [`SolveError::Cancelled`] if `progress` stops the run, which is called every [`STRETCHES_BETWEEN_REPORTS`] steps.
     pub fn pass(
         &mut self,
         from: &SlidingState,

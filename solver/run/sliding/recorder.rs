@@ -410,7 +410,7 @@ impl<'p> SlidingRecorder<'p> {
         let state = |block: usize| BlockState {
             place: chain.centroid(block),
             velocity: motion.linear[block],
-            // What the answer has for a free interface is the rounding of zero.
+            // At a free interface the answer has nothing but rounding.
             force: match answer {
                 Some(answer) if now.joints[block] != Joint::Free => answer.contacts[block],
                 _ => ContactForce::default(),

@@ -149,8 +149,8 @@ fn length(series: &mut Series, most: f64, most_orders: usize, limits: &StepLimit
         }
         series.extend()?;
     }
-    let mut h = most;
-    for round in 0.. {
+    let (mut h, mut round) = (most, 0);
+    loop {
         let error = error(series, h, limits);
         if error <= 1.0 {
             return Some(h);
@@ -159,8 +159,8 @@ fn length(series: &mut Series, most: f64, most_orders: usize, limits: &StepLimit
             return None;
         }
         h *= if round < ROUNDS { SAFETY / rough_root(error, series.orders()) } else { 0.5 };
+        round += 1;
     }
-    None
 }
 
 /// Size of the last terms of all rates and values in a step, relative to the tolerance. The ground's own velocity and displacement are among them:

@@ -92,7 +92,7 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
         recorder: &mut SlidingRecorder<'p>,
     ) -> StepEnd {
         let (s, guard) = first.map_or((1.0, None), |(s, guard)| (s, Some(guard)));
-        let (from, t) = (self.t, if s == 1.0 { self.t + self.h } else { self.t + s * self.h });
+        let (from, t) = (self.t, self.t + s * self.h);
         let joints = self.smooth.base.joints.clone();
         recorder.read(segment, &joints, [from, t], self);
         StepEnd { t, configuration: self.at(s, false).configuration.clone(), guard }

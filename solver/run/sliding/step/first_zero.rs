@@ -60,7 +60,7 @@ impl<O: Output> Step<'_, '_, O> {
             let found = match (guard, self.output.series()) {
                 (Guard::Jam, _) => self.jam(limit),
                 (Guard::Land(corner), Some(span)) => {
-                    let ([along, above], reach) = span.gap(corner);
+                    let ([along, above], reach) = span.corner_path(corner);
                     let gap = |_: &mut Self, s: f64| [along.evaluate(s).abs() - reach, above.evaluate(s)];
                     self.landing(guard, &gap, &|step| step.root(guard, &above, limit), limit)
                 }
@@ -186,7 +186,7 @@ impl<O: Output> Step<'_, '_, O> {
         if guard.needs_forces() { self.refined(guard, track, s, limit) } else { Some(s) }
     }
 
-    /// Refines a root of a polynomial on the guard itself by Newton's rule: a series leaves out more of forces than of angles. `None` if the guard
+    /// Refines a root of a polynomial on the guard itself by Newton's rule: the truncation of a series errs more in forces than in angles. `None` if the guard
     /// does not fall to zero there, or only beyond `limit`.
     fn refined(&mut self, guard: Guard, track: &Powers, root: f64, limit: f64) -> Option<f64> {
         let mut s = root;

@@ -86,7 +86,7 @@ impl<'p, O: Output> StepInside<'p> for Step<'_, 'p, O> {
             };
             return highest(gap, end, so_far);
         };
-        let corners: Vec<_> = Corner::all(interface).map(|corner| span.gap(corner)).collect();
+        let corners: Vec<_> = Corner::all(interface).map(|corner| span.corner_path(corner)).collect();
         let position =
             |([along, above], reach): &([Powers; 2], f64), s: f64| [along.evaluate(s).abs() - reach, above.evaluate(s)];
         highest(|s| contacts::least_distance(corners.iter().map(|corner| position(corner, s))), end, so_far)
