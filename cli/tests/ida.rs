@@ -199,6 +199,29 @@ fn tables_and_figures_do_not_depend_on_threads_and_fragility_reads_them_again() 
     let again = folder.succeeds("fragility ida.csv --seed 1 --out b-fragility.csv");
     assert!(again.contains("wrote b-fragility.csv\nwrote b-shares.csv\n"), "{again}");
     assert!(folder.bytes("b-fragility.csv") == first[2] && folder.bytes("b-shares.csv") == first[3]);
+    // Only the end of a name says what a table is.
+    folder.succeeds("fragility ida.csv --out fragility-of-b.csv");
+    assert!(folder.has("fragility-of-b-shares.csv"));
+}
+
+/// Figures of a table have the limit states and the bands of the study, as its table of curves has them: they had the usual ones.
+#[test]
+fn figures_of_a_table_have_the_states_of_its_study() {
+    let folder = folder();
+    let study = format!(
+        "{BLOCK}levels = {{ from = 0.3, to = 1.2, steps = 10 }}\n[records.synthetic]\nseeds = {{ from = 1, to = 12 }}\n\
+         [fragility]\nstates = [\"uplift\", \"peak > 0.6\"]\nconfidence = 0.5\nreplicates = 200\n"
+    );
+    folder.write("study.toml", study);
+    folder.succeeds("ida study.toml --plot ida.svg");
+    let first = folder.read("ida-fragility.svg");
+    assert!(first.contains("peak &gt; 0.6") && first.contains("50 %"), "{first}");
+    folder.succeeds("plot ida.csv");
+    let again = folder.read("ida-fragility.svg");
+    assert!(again.contains("peak &gt; 0.6") && !again.contains("peak &gt; 0.35") && again.contains("50 %"), "{again}");
+    folder.remove("ida-fragility.csv");
+    folder.succeeds("plot ida.csv");
+    assert!(folder.read("ida-fragility.svg").contains("peak &gt; 0.35"));
 }
 
 /// The first keys of a study of the block in [`folder`].
@@ -295,6 +318,15 @@ fn bad_studies_are_refused_with_place_and_remedy() {
         (with("[0.5, -1]", records), vec!["key `levels`", "above zero"]),
         (with("[0.5, 0.5]", records), vec!["key `levels`", "twice"]),
         (with("[0.5]", "[records]\nfiles = [\"records/A_H1.csv\", \"records/A_H1.csv\"]\n"), vec!["twice"]),
+        // The same file by another path.
+        (
+            with("[0.5]", "[records]\nfiles = [\"records/A_H1.csv\", \"./records/../records/A_H1.csv\"]\n"),
+            vec!["twice"],
+        ),
+        (
+            with("[0.5]", "[records.synthetic]\nseeds = { from = 1, to = 1000000 }\n"),
+            vec!["records.synthetic.seeds", "1000000 records", "give fewer seeds"],
+        ),
         (
             with("[0.5]", &format!("{records}[fragility]\nstates = [\"toppled\"]\n")),
             vec!["fragility.states", "peak > 0.35"],

@@ -296,3 +296,20 @@ fn the_report_shows_round_blocks_as_round_and_names_them() {
     let page = folder.page();
     assert!(page.contains("\"round\":[true,false]") && page.contains("2 (capital)"));
 }
+
+/// A page is not written over the scene of its run, nor over its record.
+#[test]
+fn a_page_over_an_input_is_refused() {
+    let folder = Folder::with(
+        "s.toml",
+        "[column]\nblocks = 1\nhalf_width = 0.2\nhalf_height = 1\n[excitation.horizontal]\nkind = \"record\"\nfile = \"a.AT2\"\n[solver]\nt_end = 1\n",
+    );
+    folder.copy("scenes/records/synthetic.AT2", "a.AT2");
+    folder.succeeds("run s.toml --out out");
+    for name in ["s.toml", "a.AT2"] {
+        let before = folder.read(name);
+        folder.refused(&format!("report out --out {name}"), &[name]);
+        assert_eq!(folder.read(name), before);
+    }
+    folder.succeeds("report out --out page.html");
+}

@@ -78,6 +78,25 @@ fn azimuths_after_numbers_of_stations_are_ends_of_names() {
     }
 }
 
+/// A converted copy beside a component is that component again: H2 was the copy of H1.
+#[test]
+fn a_component_in_two_formats_is_refused() {
+    let folder = folder();
+    let text = folder.read("records/RSN9001_HOLLOW_MIL000.AT2");
+    folder.write("records/RSN9001_HOLLOW_MIL000.at2", text);
+    let error = scene(&folder, "[excitation.station]\nrecord = \"records/RSN9001\"\ncomponent = \"H2\"\n");
+    assert_has(&error.expect_err("two files of one component"), &["MIL000.AT2", "MIL000.at2", "the same component"]);
+    folder.write(
+        "study.toml",
+        "scene = \"column.toml\"\nmeasure = \"pga_g\"\nlevels = [0.1]\n[records]\nfolder = \"records\"\n",
+    );
+    folder.write("column.toml", COLUMN);
+    folder.refused(
+        "ida study.toml",
+        &["study.toml", "`records.folder`", "the same component", "take one of the two out"],
+    );
+}
+
 #[test]
 fn an_axis_takes_the_records_of_a_folder_with_their_components() {
     let folder = folder();

@@ -18,4 +18,6 @@ pub struct Decision {
     /// Impulses at the interfaces on the stack above, base first `[N s]`, `[N m s]`: normal, tangential, moment about the
     /// contact's centre, restitution included, the end of low hops not. Empty where rates do not jump or `ImpactLaw::is_recorded` is false.
     pub impulses: PerBlock<ContactForce>,
+    /// The same without restitution; empty where nothing rebounds, and where `impulses` is.
+    pub plastic_impulses: PerBlock<ContactForce>,
 }

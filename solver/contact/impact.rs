@@ -77,6 +77,7 @@ fn impact_at<S: Size>(
     let is_striking = |&i: &usize| f64::from(states[i].sign()) * relative(omega, i) < 0.0;
     let striking = closing.iter().copied().filter(is_striking);
     let rebound = rebounded(&mechanism, &plastic, striking, &free, law.kappa, energy_before);
+    let rebounds = rebound.is_some();
     let mut rates = rebound.unwrap_or(plastic.angular);
     // Impulses are those of the impact: the projection that ends a hop has others, whose ratio is that of the lengths of a block.
     let impulses = law.is_recorded.then(|| {
@@ -108,6 +109,10 @@ fn impact_at<S: Size>(
         omega: PerBlock::from_slice(&rates),
         separation: !is_impact_admissible || !is_motion_admissible,
         energy_lost,
+        plastic_impulses: match impulses.is_some() && rebounds {
+            true => PerBlock::from_slice(&plastic.resultants),
+            false => PerBlock::new(),
+        },
         impulses: impulses.map_or_else(PerBlock::new, |list| PerBlock::from_slice(&list)),
     })
 }
@@ -142,6 +147,7 @@ pub(crate) fn stick(
         separation: true,
         energy_lost: share_lost(energy_before, energy_after),
         impulses: PerBlock::from_slice(&answer.resultants),
+        plastic_impulses: PerBlock::new(),
     })
 }
 

@@ -58,5 +58,12 @@ fn open_at<S: Size>(
     }
     let pattern = Pattern::from_states(&candidate.mechanism.states);
     let (omega, separation) = (PerBlock::from_slice(omega), found == Found::Separation);
-    Ok(Decision { pattern, omega, separation, energy_lost: 0.0, impulses: PerBlock::new() })
+    Ok(Decision {
+        pattern,
+        omega,
+        separation,
+        energy_lost: 0.0,
+        impulses: PerBlock::new(),
+        plastic_impulses: PerBlock::new(),
+    })
 }

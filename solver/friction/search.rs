@@ -279,9 +279,39 @@ impl<'a> Search<'a> {
                 let starts = [&self.friction.fixed, &self.friction.kinetic].into_iter();
                 let mut complementary = starts.filter_map(|cones| self.complementary(cones));
                 let found = complementary.find_map(|joints| self.follow_violations(joints));
-                found.or_else(|| self.best_of_all(&first, |_, _| true))
+                let found = found.or_else(|| self.best_of_all(&first, |_, _| true));
+                found.or_else(|| self.from_other_starts(&first))
             }
         }
+    }
+
+    /// The states that the search finds if it begins with another state of one interface, or of two, and with what sticks elsewhere: of several, those with
+    /// the least energy of the change. For problems with too many combinations to be tried.
+    fn from_other_starts(&self, first: &[Joint]) -> Option<Solution> {
+        let varied = |states: &PerBlock<Joint>, from: usize| -> Vec<PerBlock<Joint>> {
+            let of_interface = |interface: usize| {
+                let others =
+                    self.choices(interface).to_vec().into_iter().filter(move |joint| *joint != first[interface]);
+                others.map(move |joint| (interface, joint))
+            };
+            let with = |(interface, joint): (usize, Joint)| {
+                let mut states = states.clone();
+                states[interface] = joint;
+                states
+            };
+            (from..first.len()).flat_map(of_interface).map(with).collect()
+        };
+        let singles = varied(&PerBlock::from_slice(first), 0);
+        let best = |starts: Vec<PerBlock<Joint>>| {
+            let found = starts.into_iter().filter_map(|start| self.follow_violations(start));
+            found.min_by(|a, b| {
+                let [a, b] = [a, b].map(|solution| solution.answer.change.energy(self.column));
+                a.total_cmp(&b)
+            })
+        };
+        let changed = |states: &PerBlock<Joint>| states.iter().zip(first).position(|(a, b)| a != b).unwrap_or(0);
+        let pairs = || singles.iter().flat_map(|states| varied(states, changed(states) + 1)).collect();
+        best(singles.clone()).or_else(|| best(pairs()))
     }
 
     /// The states that solve the problem as one of complementarity. It knows one coefficient for each contact: the kinetic one of contacts that slide

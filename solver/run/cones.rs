@@ -6,6 +6,7 @@ use super::transition::Transition;
 use crate::column::{Block, Column};
 use crate::contact::noticeable_impulses;
 use crate::friction::contact_problem::Coefficients;
+use crate::mechanics::dynamics::ContactForce;
 
 /// Share of a width by which an upper block must reach beyond the lower face to count as wider.
 const WIDTH_ROUNDING: f64 = 1e-12;
@@ -103,9 +104,12 @@ impl Limits for Cones<'_> {
             return true;
         }
         let gaps = record.largest_gaps();
-        noticeable_impulses(&decision.impulses).all(|(interface, impulse)| {
+        let is_held = |(interface, impulse): (usize, &ContactForce)| {
             let (demand, coefficient) = (impulse.friction_demand(), self.friction.kinetic[interface]);
             impulse.normal > 0.0 && self.is_within(interface, demand, coefficient, gaps)
-        })
+        };
+        // The plastic impact must hold by itself: where it slides, nothing rebounds (docs/book/model.md, section 17).
+        noticeable_impulses(&decision.impulses).all(is_held)
+            && noticeable_impulses(&decision.plastic_impulses).all(is_held)
     }
 }

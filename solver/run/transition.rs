@@ -158,7 +158,14 @@ fn withdraw(before: &State, closing: &[usize]) -> Transition {
     let stays_open = |(interface, _): &&(usize, Interface)| !closing.contains(interface);
     let released = before.contact.released.iter().filter(stays_open).copied().collect();
     Transition {
-        decision: Decision { pattern, omega, separation: false, energy_lost: 0.0, impulses: PerBlock::new() },
+        decision: Decision {
+            pattern,
+            omega,
+            separation: false,
+            energy_lost: 0.0,
+            impulses: PerBlock::new(),
+            plastic_impulses: PerBlock::new(),
+        },
         kind: EventKind::Impact,
         is_event: true,
         interfaces: PerBlock::from_slice(closing),

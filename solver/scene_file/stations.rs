@@ -37,6 +37,16 @@ impl Component {
         stem.is_some_and(|stem| !name.is_empty() && stem.ends_with(&name.to_ascii_lowercase()))
     }
 
+    /// Two files that are the same component, in words; `None` if there are none. Of a record and its copy in another format, the order of files would say
+    /// which is which.
+    pub fn twice(components: &[Component]) -> Option<String> {
+        let is_same = |a: &Component, b: &Component| a.ending.eq_ignore_ascii_case(&b.ending) && !a.ending.is_empty();
+        components.iter().enumerate().find_map(|(place, later)| {
+            let earlier = components[..place].iter().find(|earlier| is_same(earlier, later))?;
+            Some(format!("{} and {} are the same component", earlier.name, later.name))
+        })
+    }
+
     /// The components that a name means: those that have it, or, for `H1` and `H2`, the first and the second horizontal component in the order of file names,
     /// or the only one whose file's name ends so (`230` of `RSN182_IMPVALL.H_H-E07230.AT2`, where a station's number comes before the azimuth).
     pub fn named<'c>(components: &'c [Component], name: &str) -> Vec<&'c Component> {
@@ -204,7 +214,14 @@ impl Reader<'_> {
             };
             return Err(refuse(problem));
         };
-        files.iter().map(|file| self.component(table, "record", folder, file, options)).collect()
+        let components: Vec<Component> = files
+            .iter()
+            .map(|file| self.component(table, "record", folder, file, options))
+            .collect::<Result<_, _>>()?;
+        match Component::twice(&components) {
+            Some(problem) => Err(refuse(format!("{problem}; take one of the two out of the folder"))),
+            None => Ok(components),
+        }
     }
 
     fn beside(&self, name: &str) -> PathBuf {

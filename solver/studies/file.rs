@@ -16,6 +16,7 @@ use crate::scene_file::table::{Table, Wrong};
 use crate::scene_file::{FileKind, SceneFileError, Setting, text};
 use crate::sweep::file::range;
 use rocking_ground::{Direction, Synthetic, TextOptions};
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 /// A study read from a file, with the settings of its fragility.
@@ -157,16 +158,20 @@ fn records(reader: &Reader, root: &mut Table, column: &Column) -> Result<Vec<Stu
         inner.close()?;
     }
     table.close()?;
-    if let Some((place, twice)) = found
-        .iter()
-        .enumerate()
-        .find(|(place, record)| found[..*place].iter().any(|other: &StudyRecord| other.name == record.name))
-    {
+    // A file is the same by whatever path it is named.
+    let folder = reader.file.parent().unwrap_or(Path::new(""));
+    let file =
+        |record: &StudyRecord| folder.join(&record.name).canonicalize().unwrap_or_else(|_| (&record.name).into());
+    let mut known = HashSet::new();
+    if let Some((place, twice)) = found.iter().enumerate().find(|(_, record)| !known.insert(file(record))) {
         let problem = format!("record {} ({}) is there twice", place + 1, twice.name);
         return Err(root.wrong("records", problem, "name each record once").into());
     }
     Ok(found)
 }
+
+/// Largest number of samples of all synthetic records, which a study keeps: 0.8 GB.
+const MOST_SAMPLES: f64 = 1e8;
 
 /// Synthetic records, one for each of `seeds`.
 fn of_seeds(table: &mut Table) -> Result<Vec<StudyRecord>, Wrong> {
@@ -178,6 +183,11 @@ fn of_seeds(table: &mut Table) -> Result<Vec<StudyRecord>, Wrong> {
         return Err(table.wrong("seed", "`seeds` says which".into(), "remove it"));
     }
     let base = noise(table)?;
+    let samples = seeds.len() as f64 * (base.duration / base.dt);
+    if samples > MOST_SAMPLES {
+        let problem = format!("{} records have {samples:.0e} samples together", seeds.len());
+        return Err(table.wrong("seeds", problem, "give fewer seeds, of 1e8 samples at most, and divide the study"));
+    }
     let record = |seed: f64| {
         let horizontal = Synthetic { seed: seed as u64, ..base }.record();
         let horizontal = horizontal.map_err(|error| table.wrong("seeds", error.to_string(), "correct the numbers"))?;
@@ -252,6 +262,9 @@ fn components_of_folder(
                 Err(Fault::Record { record, problem, .. }) => refused.push((record, problem)),
                 Err(other) => return Err(other),
             }
+        }
+        if let Some(problem) = Component::twice(&components) {
+            return Err(refuse(problem, "take one of the two out of the folder, or name the records with `files`"));
         }
         groups.push((group, components));
     }

@@ -16,6 +16,7 @@ use crate::trust::{TrustOptions, follow_run};
 use rayon::prelude::*;
 use rocking_codegen::pattern::Pattern;
 use rocking_ground::{Excitation, Motion, Record, RecordError};
+use std::collections::HashSet;
 use std::ops::Range;
 
 /// Components of one record.
@@ -177,18 +178,19 @@ impl Ida {
         if records.is_empty() {
             return Err(IdaError::NoRecords);
         }
-        let named_before = |place: usize| records[..place].iter().any(|record| record.name == records[place].name);
-        if let Some(place) = (0..records.len()).find(|place| named_before(*place)) {
-            return Err(IdaError::SameName(records[place].name.clone()));
+        let mut names = HashSet::new();
+        if let Some(twice) = records.iter().find(|record| !names.insert(record.name.as_str())) {
+            return Err(IdaError::SameName(twice.name.clone()));
         }
         if levels.is_empty() {
             return Err(IdaError::NoLevels);
         }
-        for (place, level) in levels.iter().copied().enumerate() {
+        let mut known = HashSet::new();
+        for level in levels.iter().copied() {
             if !(level.is_finite() && level > 0.0) {
                 return Err(IdaError::Level { level, problem: "it must be a finite number above zero" });
             }
-            if levels[..place].contains(&level) {
+            if !known.insert(level.to_bits()) {
                 return Err(IdaError::Level { level, problem: "it is there twice; remove one of the two" });
             }
         }

@@ -4,7 +4,7 @@ use super::{GRAVITY, run, scene};
 use approx::assert_relative_eq;
 use rocking::ground::Motion;
 use rocking::response::Event;
-use rocking::{Block, DynamicsSource, EventKind, Method, Response, Restitution, Scene, StopReason};
+use rocking::{Block, DynamicsSource, EventKind, Friction, Method, Response, Restitution, Scene, StopReason};
 use std::f64::consts::{PI, TAU};
 
 /// Housner's landing sticks if `μ ≥ 3t/(4 + t²)`.
@@ -441,5 +441,26 @@ fn a_corner_that_lands_does_not_rebound() {
         assert_eq!(sliding.without_restitution, 0);
         assert!(sliding.residual_slide[0].abs() > 0.01, "{sliding:?}");
         assert_eq!(sliding.peak_slide[0], sliding.residual_slide[0].abs());
+    }
+}
+
+/// Restitution comes after the plastic impact: where that slides, nothing rebounds. Less friction is needed after a rebound, which counted alone: the landing
+/// stuck, and kept 0.95 of its rate.
+#[test]
+fn a_landing_that_slides_does_not_rebound() {
+    let t = 0.25f64;
+    for (mu, sticks) in [(0.15, false), (0.2, true)] {
+        let mut scene = scene(vec![Block::rectangle(t, 1.0, 1.0)], vec![mu]);
+        scene.friction = Some(Friction::new(vec![0.3], vec![mu]));
+        scene.restitution = Restitution::Eta(0.95);
+        scene.initial.theta = vec![0.02];
+        scene.options.t_end = 0.3;
+        let response = run(&scene);
+        let impact = response.events.iter().find(|event| event.kind == EventKind::Impact).expect("it lands");
+        // The plastic impact needs 3t/(4 + t²) = 0.1846.
+        let slides = (1.0 - 2.0 * t * t + 3.0 * mu * t) / (1.0 + 4.0 * t * t - 3.0 * mu * t);
+        let expected = if sticks { 0.95 } else { slides };
+        assert_relative_eq!(impact.omega_after[0] / impact.omega_before[0], expected, max_relative = 1e-9);
+        assert_eq!(response.sliding.expect("friction").without_restitution > 0, !sticks);
     }
 }

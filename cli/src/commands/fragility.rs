@@ -291,10 +291,13 @@ pub fn tables(table: &Path) -> [PathBuf; 2] {
 
 /// The table of shares beside one of curves.
 fn shares_beside(curves: &Path) -> PathBuf {
-    let name = curves.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-    match name.contains("fragility") {
-        true => curves.with_file_name(name.replace("fragility", "shares")),
-        false => beside(curves, "shares"),
+    let stem = curves.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+    match stem.strip_suffix("fragility") {
+        Some(start) => {
+            let extension = curves.extension().map_or_else(String::new, |own| format!(".{}", own.to_string_lossy()));
+            curves.with_file_name(format!("{start}shares{extension}"))
+        }
+        None => beside(curves, "shares"),
     }
 }
 

@@ -19,7 +19,7 @@ use crate::text::{distinct, printable, shown};
 use csv::StringRecord;
 use rocking::intensity::Intensity;
 use rocking::studies::{
-    DEFAULT_STATES, FRACTILES, FragilityOptions, Ida, IdaFile, IdaRun, Stripe, StudyRecord, stripes,
+    DEFAULT_STATES, FRACTILES, FragilityOptions, Ida, IdaFile, IdaRun, LimitState, Stripe, StudyRecord, stripes,
 };
 use rocking::sweep::ERROR;
 use rocking::{Excitation, Fate, Motion};
@@ -106,7 +106,8 @@ pub fn warnings(ida: &Ida) -> Vec<String> {
     distinct(ida.records().iter().flat_map(of))
 }
 
-/// Draws the curves of a finished table into `picture`, and the fragility of the usual limit states into a file beside `picture`.
+/// Draws the curves of a finished table into `picture`, and the fragility into a file beside `picture`: of the limit states, and with the bands, of the table of
+/// fragility curves beside the table, or of the usual ones where there is no such table.
 /// Returns the names of both files, with captions. `None` for a table that cannot be read or is not of a study.
 pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<Option<String>, Failure> {
     // A table that cannot be read is left to `spectrum::draw`, which reports the failure.
@@ -116,12 +117,31 @@ pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<Option<String
     }
     let read = fragility::read(table, None, &[])?;
     let label = read.measure.parse().map_or(read.measure.clone(), |intensity: Intensity| intensity.label());
-    let conclusions = Conclusions::of(&read.runs, &read.measure, &DEFAULT_STATES, &FragilityOptions::default());
+    let (states, options) = asked(table).unwrap_or_else(|| (DEFAULT_STATES.to_vec(), FragilityOptions::default()));
+    let conclusions = Conclusions::of(&read.runs, &read.measure, &states, &options);
     let pictures = [
         (plot::ida(&label, &read.runs, &stripes(&read.runs), paper), picture),
         (plot::fragility(&label, &conclusions.fragilities, paper), &beside(picture, "fragility")),
     ];
     Ok(Some(write_figures(&pictures)?))
+}
+
+/// Limit states and options of the table of fragility curves beside a table of runs; `None` if there is none.
+fn asked(table: &Path) -> Option<(Vec<LimitState>, FragilityOptions)> {
+    let [curves, _] = fragility::tables(table);
+    let Rows { header, rows } = open(&curves).ok()?;
+    let column = |name: &str| header.iter().position(|own| own == name);
+    let [state, confidence, replicates] = [column("state")?, column("confidence")?, column("replicates")?];
+    let (mut states, mut options) = (Vec::new(), FragilityOptions::default());
+    for row in rows {
+        let row = row.ok()?;
+        states.push(row.get(state)?.parse().ok()?);
+        // Blank where there is no curve.
+        if let (Ok(share), Ok(count)) = (row.get(confidence)?.parse(), row.get(replicates)?.parse()) {
+            (options.confidence, options.replicates) = (share, count);
+        }
+    }
+    (!states.is_empty()).then_some((states, options))
 }
 
 /// Writes figures into files; returns the names of the files, with captions.

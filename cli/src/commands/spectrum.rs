@@ -75,7 +75,7 @@ pub fn files(picture: &Path) -> [PathBuf; 3] {
 
 /// The path of `file` with a word added to the name: `a-word.svg` for `a.svg`.
 pub fn beside(file: &Path, word: &str) -> PathBuf {
-    let [stem, extension] = [file.file_stem(), file.extension()]
-        .map(|part| part.map_or_else(String::new, |part| part.to_string_lossy().into_owned()));
-    file.with_file_name(format!("{stem}-{word}.{extension}"))
+    let stem = file.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+    let extension = file.extension().map_or_else(String::new, |own| format!(".{}", own.to_string_lossy()));
+    file.with_file_name(format!("{stem}-{word}{extension}"))
 }

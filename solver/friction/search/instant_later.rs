@@ -2,6 +2,7 @@
 
 use super::{Search, Solution};
 use crate::friction::joint::{Face, Joint, Sign, Slip, coincidence, face};
+use crate::friction::rows::Answer;
 use crate::numerics::per_block::PerBlock;
 
 impl Search<'_> {
@@ -14,28 +15,36 @@ impl Search<'_> {
             let later = self.joint_an_instant_later(interface, joints[interface]);
             let Some((joint, direction)) = later else { continue };
             (joints[interface], is_carried[interface]) = (joint, true);
-            let holds = self.answer(&joints).is_some_and(|answer| {
-                let along = f64::from(direction) * answer.motion.slide[interface];
-                answer.contacts[interface].normal >= -self.force_slack(interface, self.slack)
-                    && along >= -self.slack.linear
-            });
-            if !holds {
+            if !self.answer(&joints).is_some_and(|answer| self.carries(&answer, interface, direction)) {
                 joints[interface] = Joint::Free;
             }
         }
         if !is_carried.contains(&true) {
             return joints;
         }
-        // Each of the others changes a few times at most: it slides, then parts.
-        for _ in 0..3 * joints.len() {
+        // Each changes a few times at most: it slides, then parts. What is carried may part once the others have changed.
+        for _ in 0..4 * joints.len() {
             let Some(answer) = self.answer(&joints) else { return joints };
-            let mut others = (0..joints.len()).filter(|i| !is_carried[*i]);
-            let required = |i: usize| self.required(&joints, &answer, i, self.slack).map(|joint| (i, joint));
-            let Some((interface, joint)) = others.find_map(required) else { return joints };
+            let required = |i: usize| match (is_carried[i], joints[i].slip()) {
+                (false, _) => self.required(&joints, &answer, i, self.slack).map(|joint| (i, joint)),
+                (true, Some(Slip::Slides(direction))) if !self.carries(&answer, i, direction) => Some((i, Joint::Free)),
+                (true, _) => None,
+            };
+            let is_carried = &is_carried;
+            let of_kind = |kind: bool| (0..joints.len()).filter(move |i| kind == is_carried[*i]);
+            let Some((interface, joint)) = of_kind(false).chain(of_kind(true)).find_map(required) else {
+                return joints;
+            };
             joints[interface] = self.joint_an_instant_later(interface, joint).map_or(joint, |(later, _)| later);
         }
         // They go in circles: no state of theirs goes with the carried ones.
         self.solved_an_instant_later(&solution.joints).unwrap_or(joints)
+    }
+
+    /// Whether a face carries a corner that slides along it in a direction: it presses, and the slide goes on.
+    fn carries(&self, answer: &Answer, interface: usize, direction: Sign) -> bool {
+        let along = f64::from(direction) * answer.motion.slide[interface];
+        answer.contacts[interface].normal >= -self.force_slack(interface, self.slack) && along >= -self.slack.linear
     }
 
     /// The states that the whole search finds once coinciding corners that slide are just too far apart to coincide.

@@ -7,6 +7,9 @@ use crate::names::first_few;
 /// of cases with twenty records, in 84 % and 65 % with ten, in 73 % and 52 % with six (`tests/fragility.rs`).
 const FEW_RECORDS: usize = 20;
 
+/// Remedy where runs at the levels that would give a curve have no answer.
+const NO_ANSWERS: &str = "the other runs have no answer: see their errors, or let them go on for longer (`free_swing`)";
+
 impl Fragility {
     /// Findings in words, one sentence each, with numbers in the unit of the measure: the curve or why there is none, extrapolation, bands,
     /// few records, goodness of fit, shares that are not monotonic, undecided runs.
@@ -88,6 +91,11 @@ impl Fragility {
         })
     }
 
+    /// Whether there are levels between two others at which no run has an answer.
+    fn lacks_answers(&self, above: f64, below: f64) -> bool {
+        self.counts.iter().any(|count| count.runs == 0 && count.level > above && count.level < below)
+    }
+
     fn fit_in_words(&self) -> String {
         let none = "no curve: ";
         match self.fit {
@@ -96,7 +104,10 @@ impl Fragility {
             }
             Fit::NoRuns => format!("{none}there is no run with an answer"),
             Fit::OneRecord => format!("{none}all runs are of one record, which says nothing of others"),
-            Fit::Never { up_to } => format!("{none}no run reaches the state up to {}; go higher", brief(up_to)),
+            Fit::Never { up_to } => {
+                let remedy = if self.lacks_answers(up_to, f64::INFINITY) { NO_ANSWERS } else { "go higher" };
+                format!("{none}no run reaches the state up to {}; {remedy}", brief(up_to))
+            }
             Fit::Always { from } => format!("{none}every run reaches the state from {} on; begin lower", brief(from)),
             Fit::Step { never_to, .. } if self.levels_with_runs() == 1 => {
                 format!("{none}all runs are at one level, {}; a curve needs two levels or more", brief(never_to))
@@ -118,11 +129,14 @@ impl Fragility {
                     ),
                 }
             }
-            Fit::Step { never_to, always_from } => format!(
-                "{none}no run up to {0} reaches the state and every run from {1} on does; put levels between",
-                brief(never_to),
-                brief(always_from)
-            ),
+            Fit::Step { never_to, always_from } => {
+                let is_open = self.lacks_answers(never_to, always_from);
+                let remedy = if is_open { NO_ANSWERS } else { "put levels between" };
+                let [never_to, always_from] = [never_to, always_from].map(brief);
+                format!(
+                    "{none}no run up to {never_to} reaches the state and every run from {always_from} on does; {remedy}"
+                )
+            }
             Fit::Falling => format!("{none}the share of runs with the state does not rise with the level"),
         }
     }
