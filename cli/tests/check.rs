@@ -117,6 +117,14 @@ fn a_check_says_what_slides_before_it_rocks() {
     assert!(text.contains("interface 1 slides at 0.2 g before it opens at 0.25 g"), "{text}");
     assert_eq!((&contact["at_pga"], contact["coefficient_to_rock"].is_null()), (&"slides".into(), true));
     assert_eq!(check(0.2, 0.1).1["at_pga"], "rests");
+    // Once it slides, less kinetic friction than b/h turns it no more: the run slides with its face on the ground.
+    let two = "[friction]\nstatic = 0.4\nkinetic = 0.2\n[column]\nblocks = 1\nhalf_width = 0.25\nhalf_height = 1.0\n\
+               [excitation.horizontal]\nkind = \"rectangular\"\namplitude_g = 1.0\nduration = 0.3\n[solver]\nt_end = 1.0\n";
+    folder.write("scene.toml", two);
+    assert_eq!(folder.answers("check scene.toml --json")["contacts"][0]["at_pga"], "slides");
+    assert!(folder.succeeds("check scene.toml").contains("at the PGA it slides, and rocks once it sticks"));
+    folder.succeeds("run scene.toml");
+    assert_eq!(folder.summary()["outcome"], "slides");
 }
 
 /// A displaced block makes one side weaker, and vertical motion changes the weight: the time of the first slide or opening decides, not a threshold.

@@ -83,11 +83,14 @@ impl ContactFindings {
         [slides_from, opens_from]: [Option<f64>; 2],
     ) -> ContactFindings {
         let pga = pga.filter(|_| is_symmetric);
-        let coefficient = friction.fixed[(stack.interface - 1).min(friction.fixed.len() - 1)];
+        let of_contact = |list: &[f64]| list[(stack.interface - 1).min(list.len() - 1)];
+        let [coefficient, kinetic] = [&friction.fixed, &friction.kinetic].map(|list| of_contact(list));
         let (slides_at, opens_at) = (coefficient * stack.stack.gravity, stack.uplift_acceleration);
         let opens_by = pga.filter(|pga| slides_at > opens_at && *pga > opens_at && opens_at > 0.0);
         let needed = opens_by.map(|pga| stack.stack.coefficient_to_rock(pga));
         let at_pga = pga.map(|pga| match needed {
+            // A slide turns the stack only with more kinetic friction than that at which it opens.
+            Some(needed) if coefficient < needed && kinetic * stack.stack.gravity <= opens_at => "slides",
             Some(needed) if coefficient < needed => "slides-and-rocks",
             Some(_) => "rocks",
             None if opens_at <= 0.0 => "rocks",
@@ -137,9 +140,13 @@ impl ContactFindings {
             return format!("interface {interface} slides at {slides} g before it opens at {opens} g{both}");
         }
         let both = self.coefficient_to_rock.map(|needed| {
-            let (needed, verb) =
-                (significant(needed, 4), if at_pga == "rocks" { "rocks without sliding" } else { "slides and rocks" });
-            format!("; at the PGA it {verb}: that takes {needed} (mu_c), and it has {}", significant(*coefficient, 4))
+            let verb = match at_pga {
+                "rocks" => "rocks without sliding: that takes",
+                "slides" => "slides, and rocks once it sticks: to rock without sliding takes",
+                _ => "slides and rocks: to rock without sliding takes",
+            };
+            let [needed, own] = [needed, *coefficient].map(|coefficient| significant(coefficient, 4));
+            format!("; at the PGA it {verb} {needed} (mu_c), and it has {own}")
         });
         format!("interface {interface} opens at {opens} g before it slides at {slides} g{}", both.unwrap_or_default())
     }
