@@ -151,6 +151,10 @@ impl<'a> Search<'a> {
         Search { column, now, touch, friction, question, now_rates, centres, chain: OnceCell::new(), linear, slack }
     }
 
+    fn is_impact(&self) -> bool {
+        matches!(self.question, Question::Impact(_))
+    }
+
     /// The states with accelerations that are admissible beside `excluded`. `None` if there are none, or too many combinations.
     pub fn solve_otherwise(&self, excluded: &[Joint]) -> Option<Solution> {
         self.best_of_all(&self.first(), |joints, _| joints != excluded)
@@ -159,7 +163,7 @@ impl<'a> Search<'a> {
     /// The states that follow; the search begins with the states `first`. `None` if no states are admissible.
     pub fn solve_from(&self, first: PerBlock<Joint>) -> Option<Solution> {
         let found = self.solve_with_slides(first.clone())?;
-        if matches!(self.question, Question::Impact(_)) || found.joints == first {
+        if self.is_impact() || found.joints == first {
             return Some(found);
         }
         Some(self.with_flat_slides(self.with_fewest_slides(found)))
@@ -280,14 +284,16 @@ impl<'a> Search<'a> {
                 let mut complementary = starts.filter_map(|cones| self.complementary(cones));
                 let found = complementary.find_map(|joints| self.follow_violations(joints));
                 let found = found.or_else(|| self.best_of_all(&first, |_, _| true));
-                found.or_else(|| self.from_other_starts(&first))
+                // An impact always has an answer; accelerations may have none.
+                let goes_on = || if self.is_impact() { self.begun_elsewhere(&first) } else { None };
+                found.or_else(goes_on)
             }
         }
     }
 
     /// The states that the search finds if it begins with another state of one interface, or of two, and with what sticks elsewhere: of several, those with
-    /// the least energy of the change. For problems with too many combinations to be tried.
-    fn from_other_starts(&self, first: &[Joint]) -> Option<Solution> {
+    /// the least energy of the change. For impacts with too many combinations to be tried.
+    fn begun_elsewhere(&self, first: &[Joint]) -> Option<Solution> {
         let varied = |states: &PerBlock<Joint>, from: usize| -> Vec<PerBlock<Joint>> {
             let of_interface = |interface: usize| {
                 let others =
@@ -434,7 +440,7 @@ impl<'a> Search<'a> {
             let joints = combination(code);
             let Some(answer) = self.answer(&joints) else { continue };
             if is_accepted(&joints, &answer) && self.is_admissible(&joints, &answer, self.slack) {
-                let changes = if matches!(self.question, Question::Impact(_)) { 0 } else { changes(&joints) };
+                let changes = if self.is_impact() { 0 } else { changes(&joints) };
                 let energy = answer.change.energy(self.column);
                 admissible.push((changes, energy, joints, answer));
             }
