@@ -60,6 +60,7 @@ fn unknown_keys_and_kinds() {
     refused(&with("omega = 10.0", "omga = 10.0"), &["line 7", "omga", "unknown", "did you mean `omega`?"]);
     refused(&with("[solver]", "[zzz]"), &["line 8", "`zzz`", "unknown", "known here are"]);
     refused(&with("sine-pulse", "sinus"), &["line 5", "kind", "`sinus`", "choose one of sine-pulse"]);
+    refused(&with("\"sine-pulse\"", "\"a\\nall is well\""), &["line 5", "there is no kind `a\\nall is well`"]);
 }
 
 #[test]

@@ -379,6 +379,8 @@ impl Table {
             known.iter().min_by_key(|name| strsim::levenshtein(name, text)).filter(|name| is_slip(name, text));
         let guess = nearest.map_or(String::new(), |name| format!("did you mean `{name}`? "));
         let remedy = format!("{guess}choose one of {}", known.join(", "));
+        // An error has one line: a break would pass for a message of its own.
+        let text = text.replace('\n', "\\n").replace('\r', "\\r");
         self.wrong(key, format!("there is no {what} `{text}`"), &remedy)
     }
 
