@@ -170,3 +170,12 @@ fn steps_of_fixed_length_are_shorter_than_a_fall() {
     scene.options.step = 0.4;
     assert_eq!(scene.check(), Ok(()));
 }
+
+/// Lists of coefficients of another length are a fault of the scene, not of the caller: they panicked.
+#[test]
+fn slips_of_a_scene_that_is_not_valid_are_none() {
+    let mut scene = Scene::new(Column::equal_blocks(2, 0.4, 1.6, 1.0, 9.81).expect("valid"));
+    scene.friction = Some(Friction::new(vec![], vec![0.5]));
+    assert!(scene.check().is_err());
+    assert_eq!(scene.slips_at_rest(), [None, None]);
+}

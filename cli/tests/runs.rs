@@ -24,6 +24,14 @@ fn a_scene_is_read_from_standard_input() {
     let output = child.wait_with_output().expect("it ends");
     assert!(output.status.success() && folder.has("o/summary.json"));
     assert!(String::from_utf8_lossy(&output.stdout).starts_with("overturns at t = "));
+    // A sweep names files beside itself.
+    let mut command = folder.command("check -");
+    let mut child = command.stdin(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("started");
+    let sweep = "scene = \"a.toml\"\n[axes]\neta = [0.9]\n";
+    child.stdin.take().expect("piped").write_all(sweep.as_bytes()).expect("written");
+    let output = child.wait_with_output().expect("it ends");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("standard input takes scenes only"));
 }
 
 #[test]

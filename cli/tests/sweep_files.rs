@@ -389,3 +389,17 @@ fn a_digest_over_an_input_is_refused() {
     folder.refused("sweep sweep.toml --shard 1/1 --out records/x.csv", &["x.csv.digest"]);
     assert_eq!(folder.read("records/x.csv.digest"), before);
 }
+
+/// Digests of shards are compared with each other, also where the first shard has none.
+#[test]
+fn shards_of_different_sweeps_are_not_merged_beside_one_without_digest() {
+    let folder = folder(SWEEP);
+    for number in 1..=2 {
+        folder.succeeds(&format!("sweep sweep.toml --out {number}.csv --shard {number}/3 --quiet"));
+    }
+    folder.write("base.toml", BASE.replace("eta = 0.9", "eta = 0.8"));
+    folder.succeeds("sweep sweep.toml --out 3.csv --shard 3/3 --quiet");
+    folder.remove("1.csv.digest");
+    folder.refused("merge merged.csv 1.csv 2.csv 3.csv", &["3.csv", "2.csv"]);
+    assert!(!folder.has("merged.csv"));
+}

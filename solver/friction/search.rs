@@ -58,6 +58,9 @@ pub const GUARD_SLACK_SHARE: f64 = 2.0 * ACCELERATION_SHARE;
 /// Largest number of combinations that are tried one by one; beyond it, none is tried. Three blocks have a thousand.
 const MOST_TRIED: usize = 20_000;
 
+/// Largest number of states from which a search begins elsewhere: twelve blocks have so many neighbours.
+const MOST_STARTS: usize = 1000;
+
 /// Coefficient of friction above which several combinations may be admissible (docs/book/model.md, section 16). All are then tried, unless
 /// everything sticks or there are more than [`MOST_BLOCKS_TRIED`] interfaces.
 const AMBIGUOUS_FROM: f64 = 0.8;
@@ -163,7 +166,11 @@ impl<'a> Search<'a> {
     /// The states that follow; the search begins with the states `first`. `None` if no states are admissible.
     pub fn solve_from(&self, first: PerBlock<Joint>) -> Option<Solution> {
         let found = self.solve_with_slides(first.clone())?;
-        if self.is_impact() || found.joints == first {
+        // Of the states with which the search begins, only a slide that a guard has named may begin without others being examined.
+        let usual = self.first();
+        let is_named = |i: usize| first[i] != usual[i];
+        let begins_unnamed = (0..first.len()).any(|i| self.begins_to_slide(&first, i) && !is_named(i));
+        if self.is_impact() || found.joints == first && !begins_unnamed {
             return Some(found);
         }
         Some(self.with_flat_slides(self.with_fewest_slides(found)))
@@ -291,33 +298,32 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The states that the search finds if it begins with another state of one interface, or of two, and with what sticks elsewhere: of several, those with
-    /// the least energy of the change. For impacts with too many combinations to be tried.
+    /// The states that the search finds if it begins with another state of one interface, or of two neighbours, and with what sticks elsewhere: of several,
+    /// those with the least energy of the change. For impacts with too many combinations to be tried.
     fn begun_elsewhere(&self, first: &[Joint]) -> Option<Solution> {
-        let varied = |states: &PerBlock<Joint>, from: usize| -> Vec<PerBlock<Joint>> {
-            let of_interface = |interface: usize| {
-                let others =
-                    self.choices(interface).to_vec().into_iter().filter(move |joint| *joint != first[interface]);
-                others.map(move |joint| (interface, joint))
-            };
-            let with = |(interface, joint): (usize, Joint)| {
+        let with_others = |states: &PerBlock<Joint>, interface: usize| -> Vec<PerBlock<Joint>> {
+            let others = self.choices(interface).to_vec().into_iter().filter(|joint| *joint != first[interface]);
+            let with = |joint: Joint| {
                 let mut states = states.clone();
                 states[interface] = joint;
                 states
             };
-            (from..first.len()).flat_map(of_interface).map(with).collect()
+            others.map(with).collect()
         };
-        let singles = varied(&PerBlock::from_slice(first), 0);
         let best = |starts: Vec<PerBlock<Joint>>| {
-            let found = starts.into_iter().filter_map(|start| self.follow_violations(start));
+            let found = starts.into_iter().take(MOST_STARTS).filter_map(|start| self.follow_violations(start));
             found.min_by(|a, b| {
                 let [a, b] = [a, b].map(|solution| solution.answer.change.energy(self.column));
                 a.total_cmp(&b)
             })
         };
-        let changed = |states: &PerBlock<Joint>| states.iter().zip(first).position(|(a, b)| a != b).unwrap_or(0);
-        let pairs = || singles.iter().flat_map(|states| varied(states, changed(states) + 1)).collect();
-        best(singles.clone()).or_else(|| best(pairs()))
+        let usual = PerBlock::from_slice(first);
+        let singles = (0..first.len()).flat_map(|interface| with_others(&usual, interface)).collect();
+        let neighbours = |upper: usize| {
+            let lower = with_others(&usual, upper - 1).into_iter();
+            lower.flat_map(move |states| with_others(&states, upper)).collect::<Vec<_>>()
+        };
+        best(singles).or_else(|| best((1..first.len()).flat_map(neighbours).collect()))
     }
 
     /// The states that solve the problem as one of complementarity. It knows one coefficient for each contact: the kinetic one of contacts that slide
