@@ -59,7 +59,7 @@ pub fn open(path: &Path) -> std::io::Result<Rows> {
             Ok(Rows { header, rows: Box::new(rows) })
         }
         #[cfg(feature = "parquet")]
-        Format::Parquet => parquet::Reader::open(path).map(parquet::Reader::rows),
+        Format::Parquet => parquet::rows(path),
     }
 }
 

@@ -2,10 +2,15 @@
 
 use crate::common::sweeps::{SWEEP, folder, kill_and_go_on, long, start};
 use crate::common::{Folder, Row};
-use parquet::basic::{LogicalType, Repetition, Type};
+use parquet::basic::{Compression, LogicalType, Repetition, Type};
+use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, FloatType, Int32Type};
+use parquet::file::properties::WriterProperties;
 use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::file::writer::SerializedFileWriter;
 use parquet::record::Field;
+use parquet::schema::parser::parse_message_type;
 use std::fs::File;
+use std::sync::Arc;
 
 /// Runs the sweep of the folder into a table and returns its bytes.
 fn table(folder: &Folder, name: &str, arguments: &str) -> Vec<u8> {
@@ -32,6 +37,7 @@ fn assert_same_cells(folder: &Folder) {
                 Field::Null => text.is_empty(),
                 Field::Long(number) => text.parse() == Ok(*number),
                 Field::Double(number) => text.parse::<f64>().map(f64::to_bits) == Ok(number.to_bits()),
+                Field::Bool(truth) => text.parse() == Ok(*truth),
                 Field::Str(found) => found == text && !text.is_empty(),
                 other => panic!("{name} is {other:?}"),
             };
@@ -74,7 +80,7 @@ fn columns_have_types() {
     table(&folder, "t.parquet", "--threads 1");
     let file = open(&folder, "t.parquet");
     let text = (Type::BYTE_ARRAY, Some(LogicalType::String));
-    let [whole, number] = [(Type::INT64, None), (Type::DOUBLE, None)];
+    let [whole, number, truth] = [Type::INT64, Type::DOUBLE, Type::BOOLEAN].map(|physical| (physical, None));
     let (required, optional) = (Repetition::REQUIRED, Repetition::OPTIONAL);
     let expected = [
         ("index", &whole, required),
@@ -90,7 +96,7 @@ fn columns_have_types() {
         ("peak_2", &number, optional),
         ("peak_3", &number, optional),
         ("last_mode", &text, optional),
-        ("truncated", &text, optional),
+        ("truncated", &truth, optional),
         ("error", &text, optional),
     ];
     let fields = file.metadata().file_metadata().schema().get_fields();
@@ -152,6 +158,55 @@ fn tables_that_do_not_belong_together_are_refused() {
         folder.refused(&format!("merge {merged} {shards}"), named);
         assert!(!folder.has(merged), "{shards}");
     }
+}
+
+/// A table as pandas writes it: all columns may be blank, numbers have other widths, snappy compresses it. It is read as its twin in CSV is.
+#[test]
+fn tables_of_other_programs_are_read() {
+    let folder = Folder::new();
+    let schema = "message schema { optional binary record (STRING); optional float pga; optional binary outcome (STRING);
+        optional int32 impacts; optional double peak_1; optional boolean truncated; }";
+    let schema = Arc::new(parse_message_type(schema).expect("a schema"));
+    let properties = WriterProperties::builder().set_compression(Compression::SNAPPY).build();
+    let file = File::create(folder.path("t.parquet")).expect("a file");
+    let mut writer = SerializedFileWriter::new(file, schema, Arc::new(properties)).expect("a table");
+    let mut group = writer.next_row_group().expect("a group");
+    let (runs, mut csv) = (40, "record,pga,outcome,impacts,peak_1,truncated\n".to_string());
+    let is_lost = |run: usize| run * run % 40 < run;
+    let outcome = |run: usize| if is_lost(run) { "overturns" } else { "rocks" };
+    let present = |is: fn(usize) -> bool| (0..runs).map(|run| i16::from(is(run))).collect::<Vec<_>>();
+    let mut column = 0;
+    while let Some(mut own) = group.next_column().expect("a column") {
+        let texts = |text: &dyn Fn(usize) -> String| -> Vec<ByteArray> {
+            (0..runs).map(|run| ByteArray::from(text(run).as_str())).collect()
+        };
+        let all = present(|_| true);
+        match column {
+            0 => own.typed::<ByteArrayType>().write_batch(&texts(&|run| format!("r{run}")), Some(&all), None),
+            1 => {
+                let levels: Vec<f32> = (0..runs).map(|run| 0.25 * (run + 1) as f32).collect();
+                own.typed::<FloatType>().write_batch(&levels, Some(&all), None)
+            }
+            2 => own.typed::<ByteArrayType>().write_batch(&texts(&|run| outcome(run).into()), Some(&all), None),
+            3 => own.typed::<Int32Type>().write_batch(&[3; 20], Some(&present(|run| run % 2 == 0)), None),
+            4 => own.typed::<DoubleType>().write_batch(&[0.125; 20], Some(&present(|run| run % 2 == 0)), None),
+            _ => own.typed::<BoolType>().write_batch(&vec![false; runs], Some(&all), None),
+        }
+        .expect("written");
+        own.close().expect("a column");
+        column += 1;
+    }
+    group.close().expect("a group");
+    writer.close().expect("a table");
+    for run in 0..runs {
+        let [impacts, peak] = if run % 2 == 0 { ["3", "0.125"] } else { ["", ""] };
+        csv += &format!("r{run},{},{},{impacts},{peak},false\n", 0.25 * (run + 1) as f64, outcome(run));
+    }
+    folder.write("c.csv", csv);
+    let of = |name: &str| folder.succeeds(&format!("fragility {name} --replicates 0")).replace("c.csv", "t.parquet");
+    assert_eq!(of("c.csv").replace("c-", "t-"), of("t.parquet"));
+    assert_eq!(folder.read("c-fragility.csv"), folder.read("t-fragility.csv"));
+    folder.refused("merge m.parquet t.parquet", &["t.parquet", "does not begin with the number of its point"]);
 }
 
 /// Hidden files of a folder: parts, and tables half made of them.

@@ -18,15 +18,15 @@ const LARGEST_STEP: f64 = 0.05;
 const MOST_PADDING: usize = 1 << 16;
 
 impl Record {
-    /// Mean period `[s]`. It is zero for a record of zeros, and if no frequency of the transform lies in the band.
-    pub(crate) fn mean_period(&self) -> f64 {
+    /// Mean period `[s]`; none for a record of zeros, and if no frequency of the transform lies in the band.
+    pub(crate) fn mean_period(&self) -> Option<f64> {
         let (samples, dt) = (self.accel(), self.dt());
         let padded = (1.0 / (LARGEST_STEP * dt)).min((samples.len() * MOST_PADDING) as f64) as usize;
         let size = samples.len().max(padded).next_power_of_two();
         let step = 1.0 / (size as f64 * dt);
         // A band without a frequency needs no transform.
         if step > BAND[1] || 0.5 / dt < BAND[0] {
-            return 0.0;
+            return None;
         }
         let scale = self.peak().max(f64::MIN_POSITIVE);
         let mut values: Vec<[f64; 2]> = samples.iter().map(|a| [a / scale, 0.0]).collect();
@@ -40,7 +40,7 @@ impl Record {
                 (sum, weighted) = (sum + square, weighted + square / frequency);
             }
         }
-        if sum > 0.0 { weighted / sum } else { 0.0 }
+        (sum > 0.0).then(|| weighted / sum)
     }
 }
 
@@ -97,15 +97,15 @@ mod tests {
             let accel = (0..8192).map(|k| (TAU * f64::from(k) * 0.01 / period).sin()).collect();
             let found = Record::new(accel, 0.01, 0.0).expect("valid").mean_period();
             // Leakage: the spectrum of a sine that lasts 80 s is 1/80 Hz wide.
-            assert!((found / period - 1.0).abs() < 0.02, "{period}: {found}");
+            assert!(found.is_some_and(|found| (found / period - 1.0).abs() < 0.02), "{period}: {found:?}");
         }
     }
 
     #[test]
     fn records_outside_the_band_have_no_mean_period() {
         for dt in [1e-100, 1e-12, 10.0, 1e6] {
-            assert_eq!(Record::new(vec![1.0, -1.0, 2.0], dt, 0.0).expect("valid").mean_period(), 0.0, "{dt}");
+            assert_eq!(Record::new(vec![1.0, -1.0, 2.0], dt, 0.0).expect("valid").mean_period(), None, "{dt}");
         }
-        assert_eq!(Record::new(vec![0.0; 9], 0.01, 0.0).expect("valid").mean_period(), 0.0);
+        assert_eq!(Record::new(vec![0.0; 9], 0.01, 0.0).expect("valid").mean_period(), None);
     }
 }

@@ -25,8 +25,8 @@ pub struct Measures {
     pub arias: f64,
     /// Cumulative absolute velocity `∫ |a| dt` `[m/s]`. EPRI (1988), report NP-5930.
     pub cav: f64,
-    /// Mean period of the Fourier amplitudes from 0.25 Hz to 20 Hz `[s]`; zero for a record without such frequencies. Rathje et al. (1998).
-    pub mean_period: f64,
+    /// Mean period of the Fourier amplitudes from 0.25 Hz to 20 Hz `[s]`; none for a record without such frequencies. Rathje et al. (1998).
+    pub mean_period: Option<f64>,
     /// Time in which the Arias intensity grows from 5 % to 75 % `[s]`. Somerville et al. (1997).
     pub significant_duration_75: f64,
     /// Time in which the Arias intensity grows from 5 % to 95 % `[s]`. Trifunac and Brady (1975), BSSA 65, 581-626.
@@ -72,12 +72,12 @@ impl Record {
         std::iter::once(0.0).chain(self.intervals().map(|interval| interval.displacement(interval.h))).collect()
     }
 
-    /// Intensity measures, all finite; `gravity [m/s²]`, above zero, enters the Arias intensity.
+    /// Intensity measures, all that there are finite; `gravity [m/s²]`, above zero, enters the Arias intensity.
     pub fn measures(&self, gravity: f64) -> Measures {
         Measures { mean_period: self.mean_period(), ..self.sizes(gravity) }
     }
 
-    /// The measures of [`Record::measures`] with a mean period of zero, since the mean period takes longest to compute.
+    /// The measures of [`Record::measures`] without the mean period, which takes longest to compute.
     pub(crate) fn sizes(&self, gravity: f64) -> Measures {
         let pga = self.peak();
         let first = self.accel().iter().position(|a| a.abs() == pga).unwrap_or(0);
@@ -99,7 +99,7 @@ impl Record {
             end_displacement,
             arias: 0.5 * PI / gravity * energy,
             cav,
-            mean_period: 0.0,
+            mean_period: None,
             significant_duration_75: third_quarter - significant_start,
             significant_duration: significant_end - significant_start,
             significant_start,
@@ -175,7 +175,7 @@ mod tests {
         let measures = Record::new(vec![0.0; 3], 0.1, 2.0).expect("valid").measures(9.81);
         assert_eq!((measures.pga, measures.pgv, measures.pgd, measures.arias), (0.0, 0.0, 0.0, 0.0));
         assert_eq!((measures.significant_duration, measures.significant_duration_75), (0.0, 0.0));
-        assert_eq!((measures.cav, measures.mean_period), (0.0, 0.0));
+        assert_eq!((measures.cav, measures.mean_period), (0.0, None));
         assert!(!measures.drifts());
     }
 
@@ -193,7 +193,8 @@ mod tests {
             for accel in [vec![LARGEST_ACCELERATION; 1000], vec![LARGEST_ACCELERATION, -LARGEST_ACCELERATION, 5e-324]] {
                 let measures = Record::new(accel, dt, 0.0).expect("valid").measures(9.81);
                 let json = serde_json::to_value(measures).expect("plain numbers");
-                assert!(json.as_object().expect("fields").values().all(|value| value.is_f64()), "{json}");
+                let is_number = |(name, value): (&String, &serde_json::Value)| value.is_f64() || name == "mean_period";
+                assert!(json.as_object().expect("fields").iter().all(is_number), "{json}");
             }
         }
     }

@@ -6,6 +6,9 @@
 //! r = -s/ω²          q = -a/ω² - 2 ζ r/ω          A = u₀ - q          B = (u̇₀ - r + ζ ω A)/ω_d
 //! ```
 //!
+//! Over an interval that is short against the period, these terms cancel all but a share of (ω τ)². There the response is the Taylor series of the
+//! same solution, from the first equation.
+//!
 //! Nigam and Jennings (1969), "Calculation of response spectra from strong-motion earthquake records", BSSA 59, 909-922. They take the
 //! largest sample of the response; here the extreme between two samples counts as well.
 
@@ -16,7 +19,14 @@ use std::f64::consts::TAU;
 type State = [f64; 2];
 
 /// Response over an interval in which the ground acceleration is linear.
-struct Interval {
+enum Interval {
+    Swing(Swing),
+    /// Taylor coefficients of the displacement `[m/s^k]`, the highest first.
+    Series([f64; TERMS]),
+}
+
+/// The closed form of the response.
+struct Swing {
     /// `ω_d` `[rad/s]`
     damped: f64,
     /// `ζ ω` `[1/s]`
@@ -29,13 +39,41 @@ struct Interval {
     sin: f64,
 }
 
+/// Largest `ω τ` of an interval whose response is a series.
+const SHORT: f64 = 0.1;
+
+/// Coefficients of a series: the terms left out are below rounding for `ω τ` up to [`SHORT`].
+const TERMS: usize = 12;
+
 impl Interval {
+    /// The response from a `state` over a time `h [s]` in which the ground's acceleration is `a + slope τ`.
+    fn new([omega, damping]: [f64; 2], [u, rate]: State, [a, slope]: [f64; 2], h: f64) -> Interval {
+        let (square, decay) = (omega * omega, damping * omega);
+        if omega * h <= SHORT {
+            let mut coefficients = [0.0; TERMS];
+            (coefficients[TERMS - 1], coefficients[TERMS - 2]) = (u, rate);
+            for k in 0..TERMS - 2 {
+                let [value, first] = [0, 1].map(|more| coefficients[TERMS - 1 - k - more]);
+                let ground = [a, slope].get(k).copied().unwrap_or(0.0);
+                let second = -ground - 2.0 * decay * (k + 1) as f64 * first - square * value;
+                coefficients[TERMS - 3 - k] = second / ((k + 1) * (k + 2)) as f64;
+            }
+            return Interval::Series(coefficients);
+        }
+        let damped = omega * (1.0 - damping * damping).sqrt();
+        let r = -slope / square;
+        let q = -a / square - 2.0 * damping * r / omega;
+        let cos = u - q;
+        Interval::Swing(Swing { damped, decay, q, r, cos, sin: (rate - r + decay * cos) / damped })
+    }
+
     fn state(&self, tau: f64) -> State {
-        let (sin, cos) = libm::sincos(self.damped * tau);
-        let fading = libm::exp(-self.decay * tau);
-        let swing = fading * (self.cos * cos + self.sin * sin);
-        let rate = fading * self.damped * (self.sin * cos - self.cos * sin) - self.decay * swing;
-        [self.q + self.r * tau + swing, self.r + rate]
+        match self {
+            Interval::Swing(swing) => swing.state(tau),
+            Interval::Series(coefficients) => coefficients
+                .iter()
+                .fold([0.0; 2], |[value, rate], coefficient| [value * tau + coefficient, rate * tau + value]),
+        }
     }
 
     /// Largest magnitude `[m]` of the displacement between the times `low` and `high`, from the states at both. Between them the velocity may
@@ -51,6 +89,16 @@ impl Interval {
             if self.state(middle)[1] * from[1] > 0.0 { low = middle } else { high = middle }
         }
         ends.max(self.state(0.5 * (low + high))[0].abs())
+    }
+}
+
+impl Swing {
+    fn state(&self, tau: f64) -> State {
+        let (sin, cos) = libm::sincos(self.damped * tau);
+        let fading = libm::exp(-self.decay * tau);
+        let swing = fading * (self.cos * cos + self.sin * sin);
+        let rate = fading * self.damped * (self.sin * cos - self.cos * sin) - self.decay * swing;
+        [self.q + self.r * tau + swing, self.r + rate]
     }
 }
 
@@ -80,19 +128,12 @@ impl Record {
         if !(omega * omega).is_finite() {
             return self.peak();
         }
-        let (damped, decay) = (omega * (1.0 - damping * damping).sqrt(), damping * omega);
-        let begin = |[u, rate]: State, a: f64, slope: f64| {
-            let r = -slope / (omega * omega);
-            let q = -a / (omega * omega) - 2.0 * damping * r / omega;
-            let cos = u - q;
-            Interval { damped, decay, q, r, cos, sin: (rate - r + decay * cos) / damped }
-        };
         let (mut state, mut peak, h) = ([0.0; 2], 0.0_f64, self.dt());
         // After the record the ground does not accelerate: one period of free vibration has the largest swing.
         let after = std::iter::once(([0.0, 0.0], period));
         let intervals = self.accel().windows(2).map(|pair| ([pair[0], pair[1]], h)).chain(after);
         for ([a, b], h) in intervals {
-            let interval = begin(state, a, (b - a) / h);
+            let interval = Interval::new([omega, damping], state, [a, (b - a) / h], h);
             let mut from = (0.0, state);
             for time in evaluation_times(h, period / PARTS) {
                 let to = (time, interval.state(time));
@@ -171,6 +212,34 @@ mod tests {
             let value = record.spectral_acceleration(period, damping);
             // The swing lags behind the envelope by 1/(ζ ω) = 0.8 s: (0.8 π/40)² = 0.4 % at resonance.
             assert!((value / steady - 1.0).abs() < 5e-3, "{ratio}: {value} and {steady}");
+        }
+    }
+
+    /// Of a very long period, a record of `∫∫ a = 0` and final velocity v leaves u = -v/ω behind. Here the rest cancels by sixteen digits and more.
+    #[test]
+    fn very_long_periods_lose_no_digits() {
+        let (dt, v) = (0.01, 0.02);
+        let record = Record::new(vec![0.0, 1.0, 2.0, 1.0, 0.0, -1.0, -1.0, 0.0], dt, 0.0).expect("valid");
+        assert!((record.velocity()[7] - v).abs() < 1e-15);
+        for period in [1e4, 1e6, 1e8, 1e10] {
+            let omega = TAU / period;
+            let (value, exact) = (record.spectral_acceleration(period, 0.0), omega * v);
+            assert!((value / exact - 1.0).abs() < 1e-9 + 10.0 * omega * dt, "{period}: {value} {exact}");
+        }
+    }
+
+    /// At the bound between series and closed form both give the same.
+    #[test]
+    fn short_intervals_have_the_response_of_the_closed_form() {
+        for damping in [0.0, 0.05, 0.9] {
+            let (state, ground, omega) = ([0.3, -0.2], [1.5, -4.0], 2.0);
+            let [below, above] = [1.0 - 1e-9, 1.0 + 1e-9].map(|share| share * SHORT / omega);
+            let responses = [below, above].map(|h| Interval::new([omega, damping], state, ground, h));
+            assert!(matches!(responses, [Interval::Series(_), Interval::Swing(_)]));
+            for tau in [0.3 * below, below] {
+                let [series, swing] = responses.each_ref().map(|response| response.state(tau));
+                assert!((series[0] - swing[0]).abs() < 1e-14 && (series[1] - swing[1]).abs() < 1e-14, "{damping}");
+            }
         }
     }
 

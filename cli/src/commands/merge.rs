@@ -226,7 +226,7 @@ fn join_parquet(
     out: &File,
     failed: impl Fn(std::io::Error) -> Failure,
 ) -> Result<usize, Failure> {
-    let columns = |path: &Path| parquet::Reader::open(path).map(|table| table.columns).map_err(broken(path));
+    let columns = |path: &Path| parquet::columns(path).map_err(broken(path));
     let own = expected.map_or_else(|| columns(tables[0]), |expected| Ok(expected.columns.clone()))?;
     for path in tables {
         if columns(path)? != own {

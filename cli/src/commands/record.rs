@@ -327,7 +327,8 @@ impl Description {
         line("significant duration", format!("{duration} s (5-95 %), from {from} s to {to} s"));
         line("", format!("{} s (5-75 %)", significant(measures.significant_duration_75, DIGITS)));
         line("CAV", format!("{} m/s", significant(measures.cav, DIGITS)));
-        line("mean period", format!("{} s", significant(measures.mean_period, DIGITS)));
+        let mean_period = measures.mean_period.map_or("-".to_string(), |period| format!("{} s", significant(period, DIGITS)));
+        line("mean period", mean_period);
         for Spectral { period, damping, sa } in &self.spectral {
             let [in_g, sa] = [sa / self.gravity, *sa].map(|value| significant(value, DIGITS));
             let name = format!("Sa({} s, {} %)", significant(*period, DIGITS), significant(100.0 * damping, DIGITS));

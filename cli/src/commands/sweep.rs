@@ -181,7 +181,8 @@ pub fn columns(sweep: &Sweep) -> Result<Vec<Column>, Failure> {
             (Field::Axis(place), _) if is_number(place) => Kind::Number,
             (_, CellKind::Whole) => Kind::Whole,
             (_, CellKind::Number) => Kind::Number,
-            (_, CellKind::Truth | CellKind::Word | CellKind::Text) => Kind::Text,
+            (_, CellKind::Truth) => Kind::Truth,
+            (_, CellKind::Word | CellKind::Text) => Kind::Text,
         };
         let make = if full { Column::full } else { Column::sparse };
         make(sweep.heading(field), kind)

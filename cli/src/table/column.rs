@@ -13,7 +13,14 @@ pub const TRUST: &str = "trust";
 pub enum Kind {
     Whole,
     Number,
+    /// `true` or `false`.
+    Truth,
     Text,
+}
+
+impl Kind {
+    /// All types.
+    pub const ALL: [Kind; 4] = [Kind::Whole, Kind::Number, Kind::Truth, Kind::Text];
 }
 
 /// A column of a table.
@@ -43,6 +50,7 @@ impl Column {
             _ if cell.is_empty() => self.may_be_blank,
             Kind::Whole => cell.parse::<u64>().is_ok(),
             Kind::Number => cell.parse::<f64>().is_ok(),
+            Kind::Truth => cell.parse::<bool>().is_ok(),
         }
     }
 }

@@ -1,23 +1,19 @@
 //! Tables as Parquet.
 //!
-//! ```text
-//! rows as text ──> Piece ──> Writer ──> row groups of GROUP rows
-//!                    ^
-//! Reader ────────────┘
-//! ```
+//! Rows as text go through a piece of at most [`GROUP`] rows into row groups; only this piece is in memory. Every row group but the last has exactly
+//! [`GROUP`] rows. The bytes of a file therefore depend on its rows alone: a merged table is, byte for byte, the table of the whole sweep.
 //!
-//! Only one piece, of at most [`GROUP`] rows, is in memory. Every row group but the last has exactly [`GROUP`] rows. The bytes of a file
-//! therefore depend on its rows alone: a merged table is, byte for byte, the table of the whole sweep.
+//! Tables that other programs have written are read as well, whatever the types of their columns.
 
 use super::column::{Column, Kind, Rows};
 use csv::StringRecord;
 use parquet::basic::{Encoding, LogicalType, Repetition, Type as Physical};
-use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
-use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
+use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
 use parquet::file::properties::WriterProperties;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
+use parquet::record::{Field, Row};
 use parquet::schema::types::{ColumnPath, Type};
 use rocking::scene_file::Setting;
 use std::fs::File;
@@ -29,9 +25,6 @@ use std::sync::Arc;
 /// read. A change of this number changes the bytes of files.
 const GROUP: usize = 1 << 16;
 
-/// Largest number of rows held as text at a time: as text, rows take several times the memory.
-const MOST_TEXTS: usize = 1 << 12;
-
 /// Rows held as columns.
 struct Piece {
     columns: Vec<Cells>,
@@ -41,6 +34,7 @@ struct Piece {
 enum Cells {
     Whole(Values<Int64Type>),
     Number(Values<DoubleType>),
+    Truth(Values<BoolType>),
     Text(Values<ByteArrayType>),
 }
 
@@ -76,25 +70,6 @@ impl<T: DataType> Values<T> {
         self.levels.iter_mut().for_each(Vec::clear);
         Ok(())
     }
-
-    fn read(&mut self, reader: &mut ColumnReaderImpl<T>, rows: usize) -> Result<()> {
-        match reader.read_records(rows, self.levels.as_mut(), None, &mut self.values)?.0 {
-            read if read == rows => Ok(()),
-            _ => Err(Error::new(ErrorKind::UnexpectedEof, "a column ends before the others")),
-        }
-    }
-
-    /// A text for each row.
-    fn texts(self, show: impl Fn(&T::T) -> Result<String>) -> Result<Vec<String>> {
-        let mut values = self.values.iter().map(show);
-        match &self.levels {
-            None => values.collect(),
-            Some(levels) => {
-                let cell = |level: &i16| if *level > 0 { values.next() } else { None };
-                levels.iter().map(cell).map(|cell| cell.unwrap_or(Ok(String::new()))).collect()
-            }
-        }
-    }
 }
 
 impl Piece {
@@ -102,6 +77,7 @@ impl Piece {
         let cells = |column: &Column| match column.kind {
             Kind::Whole => Cells::Whole(Values::new(column)),
             Kind::Number => Cells::Number(Values::new(column)),
+            Kind::Truth => Cells::Truth(Values::new(column)),
             Kind::Text => Cells::Text(Values::new(column)),
         };
         Piece { columns: columns.iter().map(cells).collect(), rows: 0 }
@@ -113,24 +89,14 @@ impl Piece {
             let taken = match cells {
                 Cells::Whole(values) => values.push(cell, |cell| cell.parse().ok()),
                 Cells::Number(values) => values.push(cell, |cell| cell.parse().ok()),
+                Cells::Truth(values) => values.push(cell, |cell| cell.parse().ok()),
                 Cells::Text(values) => values.push(cell, |cell| Some(ByteArray::from(cell))),
             };
-            let wrong = || format!("the row of point {} has a cell `{cell}` that is no number", &row[0]);
+            let wrong = || format!("the row of point {} has a cell `{cell}` that is none of its column", &row[0]);
             taken.ok_or_else(|| Error::new(ErrorKind::InvalidData, wrong()))?;
         }
         self.rows += 1;
         Ok(())
-    }
-
-    fn texts(self) -> Result<Vec<StringRecord>> {
-        let columns = self.columns.into_iter().map(|cells| match cells {
-            Cells::Whole(values) => values.texts(|value| Ok(value.to_string())),
-            // Numbers have the text that values of axes have in CSV.
-            Cells::Number(values) => values.texts(|value| Ok(Setting::Number(*value).to_string())),
-            Cells::Text(values) => values.texts(|value| Ok(value.as_utf8()?.to_string())),
-        });
-        let columns = columns.collect::<Result<Vec<_>>>()?;
-        Ok((0..self.rows).map(|row| columns.iter().map(|column| column[row].as_str()).collect()).collect())
     }
 }
 
@@ -174,6 +140,7 @@ impl<W: Write + Send> Writer<W> {
             match cells {
                 Cells::Whole(values) => values.write(&mut group),
                 Cells::Number(values) => values.write(&mut group),
+                Cells::Truth(values) => values.write(&mut group),
                 Cells::Text(values) => values.write(&mut group),
             }?;
         }
@@ -207,6 +174,7 @@ fn field(column: &Column) -> std::result::Result<Arc<Type>, ParquetError> {
     let (physical, logical) = match column.kind {
         Kind::Whole => (Physical::INT64, None),
         Kind::Number => (Physical::DOUBLE, None),
+        Kind::Truth => (Physical::BOOLEAN, None),
         Kind::Text => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
     };
     let repetition = if column.may_be_blank { Repetition::OPTIONAL } else { Repetition::REQUIRED };
@@ -214,80 +182,62 @@ fn field(column: &Column) -> std::result::Result<Arc<Type>, ParquetError> {
     field.with_logical_type(logical).build().map(Arc::new)
 }
 
-/// A table being read, a group after the other.
-pub struct Reader {
-    file: SerializedFileReader<File>,
-    /// Columns of the table.
-    pub columns: Vec<Column>,
-    /// Column readers of the row group that is being read.
-    group: Vec<ColumnReader>,
-    /// Number of rows of this row group that are still to be read.
-    left: usize,
-    next_group: usize,
+/// The columns of a table that [`Writer`] has written.
+pub fn columns(path: &Path) -> Result<Vec<Column>> {
+    let column = |field: &Arc<Type>| {
+        let name = field.name();
+        let kinds = Kind::ALL.map(|kind| [Column::full(name, kind), Column::sparse(name, kind)]);
+        let known = kinds.into_iter().flatten().find(|column| self::field(column).is_ok_and(|known| known == *field));
+        let unknown = || format!("no table of this program has a column `{name}` of this type");
+        known.ok_or_else(|| Error::new(ErrorKind::InvalidData, unknown()))
+    };
+    let columns: Vec<Column> = schema(&open(path)?).get_fields().iter().map(column).collect::<Result<_>>()?;
+    match columns.first() {
+        Some(first) if *first == Column::full("index", Kind::Whole) => Ok(columns),
+        _ => Err(Error::new(ErrorKind::InvalidData, "its first column is not the index of the points")),
+    }
 }
 
-impl Reader {
-    /// Opens a table that [`Writer`] has written.
-    pub fn open(path: &Path) -> Result<Reader> {
-        let file = SerializedFileReader::new(File::open(path)?)?;
-        let schema = file.metadata().file_metadata().schema();
-        let column = |field: &Arc<Type>| {
-            let name = field.name();
-            let kinds = [Kind::Whole, Kind::Number, Kind::Text]
-                .map(|kind| [Column::full(name, kind), Column::sparse(name, kind)]);
-            let known =
-                kinds.into_iter().flatten().find(|column| self::field(column).is_ok_and(|known| known == *field));
-            known
-                .ok_or_else(|| Error::new(ErrorKind::InvalidData, format!("no table of a sweep has its column {name}")))
-        };
-        let columns = schema.get_fields().iter().map(column).collect::<Result<Vec<Column>>>()?;
-        if columns.first() != Some(&Column::full("index", Kind::Whole)) {
-            return Err(Error::new(ErrorKind::InvalidData, "its first column is not the index of the points"));
-        }
-        Ok(Reader { file, columns, group: Vec::new(), left: 0, next_group: 0 })
-    }
+/// Rows of a table of any program as text.
+pub fn rows(path: &Path) -> Result<Rows> {
+    let file = open(path)?;
+    let header = schema(&file).get_fields().iter().map(|field| field.name()).collect();
+    let rows = file.into_iter().map(|row| row.map_err(damage).and_then(|row| texts(&row)));
+    Ok(Rows { header, rows: Box::new(rows) })
+}
 
-    /// Appends up to `most` rows to `piece`, which has the table's columns. Returns their number: 0 at the end of the file.
-    fn read(&mut self, piece: &mut Piece, most: usize) -> Result<usize> {
-        while self.left == 0 {
-            if self.next_group == self.file.num_row_groups() {
-                return Ok(0);
-            }
-            let group = self.file.get_row_group(self.next_group)?;
-            self.group = (0..self.columns.len())
-                .map(|place| group.get_column_reader(place))
-                .collect::<std::result::Result<_, _>>()?;
-            self.left = usize::try_from(group.metadata().num_rows()).map_err(Error::other)?;
-            self.next_group += 1;
-        }
-        let rows = self.left.min(most);
-        for (cells, reader) in piece.columns.iter_mut().zip(&mut self.group) {
-            match (cells, reader) {
-                (Cells::Whole(values), ColumnReader::Int64ColumnReader(reader)) => values.read(reader, rows),
-                (Cells::Number(values), ColumnReader::DoubleColumnReader(reader)) => values.read(reader, rows),
-                (Cells::Text(values), ColumnReader::ByteArrayColumnReader(reader)) => values.read(reader, rows),
-                _ => Err(Error::new(ErrorKind::InvalidData, "a column has another type than its schema says")),
-            }?;
-        }
-        piece.rows += rows;
-        self.left -= rows;
-        Ok(rows)
-    }
+fn open(path: &Path) -> Result<SerializedFileReader<File>> {
+    SerializedFileReader::new(File::open(path)?).map_err(damage)
+}
 
-    /// Rows of the table as text.
-    pub fn rows(mut self) -> Rows {
-        let header = self.columns.iter().map(|column| column.name.as_str()).collect();
-        let pieces = std::iter::from_fn(move || {
-            let mut piece = Piece::new(&self.columns);
-            match self.read(&mut piece, MOST_TEXTS) {
-                Ok(0) => None,
-                read => Some(read.and_then(|_| piece.texts())),
-            }
-        });
-        let rows = pieces.flat_map(|piece| match piece {
-            Ok(rows) => rows.into_iter().map(Ok).collect(),
-            Err(error) => vec![Err(error)],
-        });
-        Rows { header, rows: Box::new(rows) }
+fn schema(file: &SerializedFileReader<File>) -> &Type {
+    file.metadata().file_metadata().schema()
+}
+
+/// What keeps a file from being read.
+fn damage(error: ParquetError) -> Error {
+    let text = error.to_string();
+    match text.contains("Disabled feature") {
+        true => {
+            let remedy = "it is compressed in another way than snappy; write it with snappy or without compression";
+            Error::new(ErrorKind::InvalidData, remedy)
+        }
+        false => Error::new(ErrorKind::InvalidData, text),
     }
+}
+
+/// Cells as CSV has them: numbers have the text that values of axes have there.
+fn texts(row: &Row) -> Result<StringRecord> {
+    let text = |(name, field): (&String, &Field)| match field {
+        Field::Null => Ok(String::new()),
+        Field::Float(value) => Ok(Setting::Number(f64::from(*value)).to_string()),
+        Field::Double(value) => Ok(Setting::Number(*value).to_string()),
+        Field::Str(text) => Ok(text.clone()),
+        Field::Group(_) | Field::ListInternal(_) | Field::MapInternal(_) | Field::Bytes(_) => {
+            Err(Error::new(ErrorKind::InvalidData, format!("a cell of its column `{name}` is no number, text or truth")))
+        }
+        // Whole numbers, truths, dates.
+        field => Ok(field.to_string()),
+    };
+    row.get_column_iter().map(text).collect()
 }

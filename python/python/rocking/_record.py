@@ -208,8 +208,11 @@ class Record:
         return self._record.warnings
 
     def measures(self, gravity: float = GRAVITY) -> dict[str, float]:
-        """Intensity measures by name: PGA, PGV, PGD, Arias intensity, CAV, durations, mean period; SI."""
-        return self._record.measures(gravity)
+        """Intensity measures by name: PGA, PGV, PGD, Arias intensity, CAV, durations, mean period; SI.
+
+        The mean period of a record without frequencies from 0.25 to 20 Hz is NaN.
+        """
+        return {name: np.nan if value is None else value for name, value in self._record.measures(gravity).items()}
 
     def spectrum(self, periods: npt.ArrayLike, damping: float = 0.05) -> Array:
         """Pseudo-spectral accelerations [m/s²] at periods [s], of the shape of the periods."""
