@@ -71,6 +71,9 @@ pub enum Failure {
     /// A small table is written as CSV alone.
     #[error("{}: curves and shares are written as CSV; give a name that ends in .csv", .0.display())]
     OnlyCsv(PathBuf),
+    /// A record is written as CSV alone.
+    #[error("{}: a record is written as CSV; give a name that ends in .csv", .0.display())]
+    RecordIsCsv(PathBuf),
     /// There are too few replicates for bands.
     #[error("--replicates: {0}")]
     Bands(TooFewReplicates),

@@ -128,6 +128,11 @@ fn bad_input_is_refused_with_its_place() {
     folder.refused(&["record", &at2, "--pga", "1", "--scale", "2"], &["cannot be used with"]);
     folder.refused(&["record", &at2, "--units", "knots"], &["knots", "choose g, mg, m/s2"]);
     folder.refused(&["record", &at2, "--out", "no/folder/x.csv"], &["x.csv", "choose a file"]);
+    for name in ["x.parquet", "x.xlsx"] {
+        folder.refused(&["record", &at2, "--out", name], &[name, "written as CSV"]);
+    }
+    folder.refused(&["record", &at2, "--trim", "5..5"], &["--trim 5..5: it is empty"]);
+    folder.refused(&["record", &at2, "--trim", "900.."], &["from 900 s on the record has 0 sample(s)"]);
     folder.refused(&["record", &at2, "--channel", "2"], &["channel 2"]);
 }
 

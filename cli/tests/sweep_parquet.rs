@@ -164,7 +164,8 @@ fn tables_that_do_not_belong_together_are_refused() {
 #[test]
 fn tables_of_other_programs_are_read() {
     let folder = Folder::new();
-    let schema = "message schema { optional binary record (STRING); optional float pga; optional binary outcome (STRING);
+    let schema =
+        "message schema { optional binary record (STRING); optional float pga; optional binary outcome (STRING);
         optional int32 impacts; optional double peak_1; optional boolean truncated; }";
     let schema = Arc::new(parse_message_type(schema).expect("a schema"));
     let properties = WriterProperties::builder().set_compression(Compression::SNAPPY).build();

@@ -20,7 +20,8 @@ pub enum RecordError {
     OneRow { line: usize, count: usize },
     /// Fewer than two samples are between two times.
     #[error(
-        "from {from} s to {to} s the record has {count} sample(s): it lasts {duration} s, and needs at least two; give other times"
+        "from {from} s {} the record has {count} sample(s): it lasts {duration} s, and needs at least two; give other times",
+        if to.is_finite() { format!("to {to} s") } else { "on".into() }
     )]
     Trimmed { from: f64, to: f64, count: usize, duration: f64 },
     /// The file is empty or has remarks only.

@@ -66,7 +66,7 @@ impl Synthetic {
     /// ```
     ///
     /// # Errors
-    /// [`RecordError::OutOfRange`] for a parameter that is not a finite number above zero, or a duration outside 1 to 1e7 sampling intervals.
+    /// [`RecordError::OutOfRange`] for a parameter that is not a finite number above zero, or a duration below 1 sampling interval or of 1e7 and more.
     pub fn record(&self) -> Result<Record, RecordError> {
         let numbers = [
             ("pga", self.pga),
@@ -80,7 +80,7 @@ impl Synthetic {
         }
         let intervals = self.duration / self.dt;
         if !(1.0..MOST_SAMPLES).contains(&intervals) {
-            let wanted = "1 to 1e7 sampling intervals";
+            let wanted = "at least 1 and fewer than 1e7 sampling intervals";
             return Err(RecordError::OutOfRange { name: "duration", value: self.duration, wanted });
         }
         let count = intervals.round() as usize + 1;

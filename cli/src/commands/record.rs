@@ -5,6 +5,7 @@ use crate::commands::inputs;
 use crate::commands::plot::write;
 use crate::error::{Failure, with_dashes};
 use crate::number::significant;
+use crate::table::Format;
 use crate::terminal::{json, print, warn};
 use crate::text::{printable, shown};
 use crate::{output, plot};
@@ -57,6 +58,9 @@ pub fn record(arguments: &arguments::Record, window: Option<Window>) -> Result<(
     }
     description.measure(&record);
     description.measure_by(&record, &arguments.sa, damping, column.as_ref());
+    if let Some(out) = arguments.out.as_ref().filter(|out| !matches!(Format::of(out), Ok(Format::Csv))) {
+        return Err(Failure::RecordIsCsv(out.clone()));
+    }
     let outputs: Vec<PathBuf> = arguments.out.iter().chain(&arguments.plot).cloned().collect();
     let inputs: Vec<PathBuf> = std::iter::once(&path).chain(&arguments.scene).cloned().collect();
     output::check(&outputs, &inputs)?;
@@ -65,16 +69,7 @@ pub fn record(arguments: &arguments::Record, window: Option<Window>) -> Result<(
     }
     if let Some(picture) = &arguments.plot {
         let title = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-        let [velocity, displacement] = [record.velocity(), record.displacement()];
-        let figure = plot::record(
-            &title,
-            record.dt(),
-            gravity,
-            record.accel(),
-            &velocity,
-            &displacement,
-            &plot::Paper::default(),
-        );
+        let figure = plot::record(&title, &record, gravity, &plot::Paper::default());
         write(&figure, picture)?;
     }
     warn(&description.warnings);
@@ -119,7 +114,7 @@ impl Window {
         };
         let window = Window { from: time(from, 0.0)?, to: time(to.trim_start_matches(['.', '=']), f64::INFINITY)? };
         if window.from >= window.to {
-            return Err(wrong("it ends before it begins"));
+            return Err(wrong(if window.from == window.to { "it is empty" } else { "it ends before it begins" }));
         }
         Ok(Some(window))
     }
@@ -327,7 +322,8 @@ impl Description {
         line("significant duration", format!("{duration} s (5-95 %), from {from} s to {to} s"));
         line("", format!("{} s (5-75 %)", significant(measures.significant_duration_75, DIGITS)));
         line("CAV", format!("{} m/s", significant(measures.cav, DIGITS)));
-        let mean_period = measures.mean_period.map_or("-".to_string(), |period| format!("{} s", significant(period, DIGITS)));
+        let mean_period =
+            measures.mean_period.map_or("-".to_string(), |period| format!("{} s", significant(period, DIGITS)));
         line("mean period", mean_period);
         for Spectral { period, damping, sa } in &self.spectral {
             let [in_g, sa] = [sa / self.gravity, *sa].map(|value| significant(value, DIGITS));

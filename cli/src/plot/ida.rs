@@ -50,7 +50,7 @@ pub fn ida(label: &str, runs: &[Observation], stripes: &[Stripe], paper: &Paper)
     by_record.values_mut().for_each(|runs| runs.sort_by(|a, b| a.level.total_cmp(&b.level)));
     let fractile_lines = if by_record.len() >= LEAST_RECORDS { &FRACTILE_LINES[..] } else { &[] };
     curves(&mut sheet, &panel, &by_record, stripes, fractile_lines);
-    counts(&mut sheet, &panel, runs, stripes);
+    let counted_levels = counts(&mut sheet, &panel, runs, stripes);
 
     let records = counted(by_record.len(), ["record", "records"]);
     let mut entries = vec![(Key::Line(RECORD), records.clone())];
@@ -69,7 +69,7 @@ pub fn ida(label: &str, runs: &[Observation], stripes: &[Stripe], paper: &Paper)
     };
     let caption = format!(
         "{records} at {levels} of {label}: the largest |θ|/α of each run{fractiles}.{}",
-        lost_and_undecided(runs, undecided)
+        lost_and_undecided(runs, undecided, [counted_levels, stripes.len()])
     );
     Figure::new("ida", caption, sheet)
 }
@@ -98,11 +98,15 @@ fn is_standing(run: &Observation) -> bool {
     run.demand().is_some_and(f64::is_finite)
 }
 
-/// Sentences on the columns that are lost, and on the runs without an answer.
-fn lost_and_undecided(runs: &[Observation], undecided: usize) -> String {
+/// Sentences on the columns that are lost, and on the runs without an answer. `levels` are those with a count, and all.
+fn lost_and_undecided(runs: &[Observation], undecided: usize, levels: [usize; 2]) -> String {
     let lost = runs.iter().filter(|run| run.is_lost()).count();
     let of = counted(runs.len(), ["run", "runs"]);
-    let mut text = format!(" Lost: {lost} of {of}, counted per level on the right.");
+    let per_level = match levels {
+        [some, all] if some < all => format!("at {some} of {all} levels on the right, where there is room"),
+        _ => "per level on the right".into(),
+    };
+    let mut text = format!(" Lost: {lost} of {of}, counted {per_level}.");
     text.push_str(match (lost, runs.iter().any(is_standing)) {
         (0, _) => "",
         (_, true) => " A curve reaches the right edge where the column is lost, and comes back where it stands again.",
@@ -138,11 +142,11 @@ fn draw(sheet: &mut Sheet, panel: &Panel, begins: Option<(f64, f64)>, points: &[
     sheet.lines(panel, &runs, stroke);
 }
 
-/// Counts of lost columns at each level, right of the panel. A count too close to the one written before is left out.
-fn counts(sheet: &mut Sheet, panel: &Panel, runs: &[Observation], stripes: &[Stripe]) {
+/// Counts of lost columns at each level, right of the panel. A count too close to the one written before is left out. Returns the number of counts.
+fn counts(sheet: &mut Sheet, panel: &Panel, runs: &[Observation], stripes: &[Stripe]) -> usize {
     let x = panel.frame.right() + 0.5 * COUNTS;
     sheet.words([x, TOP - 10.0], "lost", style::NOTE, Anchor::Middle);
-    let mut last = f64::INFINITY;
+    let (mut last, mut written) = (f64::INFINITY, 0);
     for stripe in stripes {
         let lost = runs.iter().filter(|run| run.level == stripe.level && run.is_lost()).count();
         let y = panel.place([0.0, stripe.level])[1] + 4.5;
@@ -152,9 +156,10 @@ fn counts(sheet: &mut Sheet, panel: &Panel, runs: &[Observation], stripes: &[Str
                 known => format!("{lost}/{known}"),
             };
             sheet.words([x, y], &count, style::NOTE, Anchor::Middle);
-            last = y;
+            (last, written) = (y, written + 1);
         }
     }
+    written
 }
 
 #[cfg(test)]
@@ -163,16 +168,13 @@ mod tests {
     use rocking::Fate;
     use rocking::studies::stripes;
 
+    fn run(level: f64, fate: Option<Fate>) -> Observation {
+        let (record, peaks, residual_slides) = ("a".into(), vec![0.5], Vec::new());
+        Observation { record, level, fate, has_uplift: true, peaks, residual_slides }
+    }
+
     #[test]
     fn a_level_without_an_answer_counts_nothing() {
-        let run = |level: f64, fate: Option<Fate>| Observation {
-            record: "a".into(),
-            level,
-            fate,
-            has_uplift: true,
-            peaks: vec![0.5],
-            residual_slides: Vec::new(),
-        };
         let runs = [run(1.0, Some(Fate::Rocks)), run(2.0, None)];
         let figure = ida("PGV [m/s]", &runs, &stripes(&runs), &Paper::default());
         assert!(figure.svg.contains(">0/1<") && figure.svg.contains(">–<") && !figure.svg.contains("0/0"));
@@ -180,5 +182,11 @@ mod tests {
         let told =
             "Lost: 0 of 2 runs, counted per level on the right. Undecided and left out: 1 of 2 runs, which failed";
         assert!(figure.caption.contains(told), "{}", figure.caption);
+    }
+    #[test]
+    fn the_caption_tells_of_levels_without_room_for_a_count() {
+        let runs = [0.01, 0.02, 0.04, 5.0, 10.0].map(|level| run(level, Some(Fate::Rocks)));
+        let figure = ida("PGV [m/s]", &runs, &stripes(&runs), &Paper::default());
+        assert!(figure.caption.contains("counted at 3 of 5 levels on the right"), "{}", figure.caption);
     }
 }

@@ -233,9 +233,10 @@ fn texts(row: &Row) -> Result<StringRecord> {
         Field::Float(value) => Ok(Setting::Number(f64::from(*value)).to_string()),
         Field::Double(value) => Ok(Setting::Number(*value).to_string()),
         Field::Str(text) => Ok(text.clone()),
-        Field::Group(_) | Field::ListInternal(_) | Field::MapInternal(_) | Field::Bytes(_) => {
-            Err(Error::new(ErrorKind::InvalidData, format!("a cell of its column `{name}` is no number, text or truth")))
-        }
+        Field::Group(_) | Field::ListInternal(_) | Field::MapInternal(_) | Field::Bytes(_) => Err(Error::new(
+            ErrorKind::InvalidData,
+            format!("a cell of its column `{name}` is no number, text or truth"),
+        )),
         // Whole numbers, truths, dates.
         field => Ok(field.to_string()),
     };

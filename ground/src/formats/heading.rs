@@ -165,11 +165,19 @@ pub fn headings(text: &str, above: Option<&str>) -> Vec<Heading> {
 }
 
 /// The cells of a line of headings, separated by semicolons, else by commas, else by tabs, else by blanks. Blanks within brackets, and before
-/// them, belong to the cell.
+/// them, belong to the cell, and so does what stands between quotes.
 fn cells(text: &str) -> Vec<String> {
+    let text = text.trim();
+    let has_pairs = text.matches('"').count().is_multiple_of(2);
     for delimiter in [';', ',', '\t'] {
-        if text.contains(delimiter) {
-            return text.trim().trim_end_matches(delimiter).split(delimiter).map(str::to_string).collect();
+        let mut is_quoted = false;
+        let separates = |sign: char| {
+            is_quoted ^= sign == '"' && has_pairs;
+            sign == delimiter && !is_quoted
+        };
+        let cells: Vec<String> = text.trim_end_matches(delimiter).split(separates).map(str::to_string).collect();
+        if cells.len() > 1 || text.ends_with(delimiter) {
+            return cells;
         }
     }
     let mut cells: Vec<String> = Vec::new();
@@ -232,5 +240,6 @@ mod tests {
         }
         assert_eq!(headings("s,g", Some("A long title")), [own("", "s"), own("", "g")]);
         assert_eq!(headings("t a [g]", None), [own("t", ""), own("a", "g")]);
+        assert_eq!(headings("\"Time, s\",\"Acc, g\"", None), expected);
     }
 }

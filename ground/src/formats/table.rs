@@ -101,7 +101,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let headings = &rows.headings.1;
     if !headings.is_empty() && headings.len() != rows.columns {
         let problem = format!("{} name(s) above {} column(s)", headings.len(), rows.columns);
-        return Err(rows.entry("name every column, or skip the line (`skip_rows`)").wrong(problem));
+        return Err(rows.entry("name every column, or leave out the line with `skip_rows`").wrong(problem));
     }
     refuse_spectrum(&rows)?;
     let chosen = acceleration_column(&rows, options)?;

@@ -28,6 +28,9 @@ const ROOM: f64 = 0.06;
 /// Room above the largest angle if some columns are lost, as a share of it. The upper edge has a name, which needs room free of numbers.
 const ROOM_BELOW_LOST: f64 = 0.1;
 
+/// Name of the upper edge where curves of lost columns leave.
+const LOST: &str = "lost";
+
 /// Upper end of the axis of a quantity that is zero throughout.
 const NOTHING: f64 = 1.0;
 
@@ -130,7 +133,7 @@ pub fn draw(points: &Points, family: &Family, measure: &Measure, paper: &Paper) 
         let (row, column) = (number / columns, number % columns);
         let top = heading + row as f64 * (height + heading + 4.0);
         let frame = Frame { left: LEFT + column as f64 * (width + BETWEEN), top, width, height };
-        let place = Place { frame, x: &family.x, y: &y };
+        let place = Place { frame, x: &family.x, y: &y, top_name: if has_lost { LOST } else { "" } };
         place.grid(&mut sheet);
         if let Some(reference) = measure.reference {
             place.level(&mut sheet, reference);
@@ -146,9 +149,6 @@ pub fn draw(points: &Points, family: &Family, measure: &Measure, paper: &Paper) 
         if column == 0 {
             let each = if is_each_entry { measure.label } else { label };
             place.label_upwards(&mut sheet, each.into());
-            if has_lost {
-                place.name_top(&mut sheet);
-            }
         }
         bottom = frame.bottom().max(bottom);
     }
@@ -251,17 +251,6 @@ impl Place<'_> {
         let y = self.y.share(value);
         if (0.0..1.0).contains(&y) {
             sheet.line(self.at([0.0, y]), self.at([1.0, y]), &style::REFERENCE);
-        }
-    }
-
-    /// Names the upper edge "lost", unless a number stands there.
-    fn name_top(&self, sheet: &mut Sheet) {
-        let at = [self.frame.left - 8.0, self.frame.top + 4.5];
-        let is_free = |(value, _): &(f64, String)| {
-            self.at([0.0, self.y.share(*value)])[1] - self.frame.top > f64::from(style::NUMBER)
-        };
-        if self.y_ticks().iter().all(is_free) {
-            sheet.words(at, "lost", style::NOTE, Anchor::End);
         }
     }
 

@@ -29,6 +29,8 @@ pub struct Place<'g> {
     pub frame: Frame,
     pub x: &'g Scale,
     pub y: &'g Scale,
+    /// Name of the upper edge; empty if it has none.
+    pub top_name: &'static str,
 }
 
 impl Place<'_> {
@@ -60,9 +62,14 @@ impl Place<'_> {
         for (value, text) in upwards {
             let [x, y] = self.at([0.0, self.y.share(value)]);
             sheet.line([x - TICK, y], [x, y], &style::THIN);
-            if numbers[1] {
+            // The name of the upper edge takes the place of a number beside it.
+            let is_free = self.top_name.is_empty() || y - self.frame.top > f64::from(style::NUMBER);
+            if numbers[1] && is_free {
                 sheet.words([x - TICK - 4.0, y + 4.5], &text, style::NUMBER, Anchor::End);
             }
+        }
+        if numbers[1] {
+            sheet.words([self.frame.left - TICK - 4.0, self.frame.top + 4.5], self.top_name, style::NOTE, Anchor::End);
         }
     }
 
@@ -92,5 +99,27 @@ impl Place<'_> {
             let y = self.y.share(value);
             sheet.line(self.at([0.0, y]), self.at([1.0, y]), &GRID);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plot::paper::Paper;
+    use crate::plot::sheet::Figure;
+
+    /// The upper edge is at 1.42, and 1.4 is a tick five pixels below it.
+    #[test]
+    fn the_name_of_the_upper_edge_takes_the_place_of_a_number() {
+        let drawn = |top_name: &'static str| {
+            let [x, y] = [Scale::over("", vec![0.0, 1.0]), Scale::over("", vec![0.0, 1.42])];
+            let frame = Frame { left: 80.0, top: 20.0, width: 400.0, height: 380.0 };
+            let mut sheet = Sheet::new("a panel", &Paper::default());
+            Place { frame, x: &x, y: &y, top_name }.axes(&mut sheet, [true, true]);
+            Figure::new("panel", String::new(), sheet).svg
+        };
+        let [without, with] = ["", "lost"].map(drawn);
+        assert!(without.contains(">1.4<") && with.contains(">1.2<"), "{without}");
+        assert!(with.contains(">lost<") && !with.contains(">1.4<"), "{with}");
     }
 }

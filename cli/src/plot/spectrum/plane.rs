@@ -38,7 +38,7 @@ pub fn spectrum(grid: &Grid, paper: &Paper) -> Figure {
         // The last row may be shorter. Every panel without a panel below it has numbers.
         let is_lowest = panel + columns >= titles.len();
         let frame = Frame { left: LEFT + column as f64 * (width + GAP), top, width, height };
-        let place = Place { frame, x, y };
+        let place = Place { frame, x, y, top_name: "" };
         sheet.words(
             [frame.left + 0.5 * width, frame.top - 8.0],
             &shortened(title, style::LABEL, width),
@@ -99,7 +99,7 @@ pub fn minimum(grid: &Grid, paper: &Paper) -> Figure {
     let what = format!("Least values that {}: {} against {}", loss.they, y.label(), x.label());
     let mut sheet = Sheet::new(&what, paper);
     let frame = Frame { left: LEFT, top: GAP, width: sheet.width - LEFT - RIGHT, height: MINIMUM_HEIGHT };
-    let place = Place { frame, x, y };
+    let place = Place { frame, x, y, top_name: "" };
     place.grid(&mut sheet);
     if y.key.ends_with(UPLIFT) && (0.0..=1.0).contains(&y.share(1.0)) {
         let level = y.share(1.0);

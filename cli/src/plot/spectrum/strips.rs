@@ -32,7 +32,7 @@ pub fn draw(points: &Points, family: &Family, paper: &Paper) -> Figure {
     let mut bottom = 0.0;
     for (number, title) in family.titles.iter().enumerate() {
         let frame = Frame { left: EDGE, top: heading + number as f64 * (HEIGHT + heading), width, height: HEIGHT };
-        let place = Place { frame, x: &x, y: &one };
+        let place = Place { frame, x: &x, y: &one, top_name: "" };
         // Of several points at one position, the most violent class is drawn. Both positions rise.
         let order = |class: &Class| Class::ALL.iter().position(|own| own == class);
         let mut own = rows[number][0].iter().map(|(position, row)| (*position, points.classes[*row])).peekable();
