@@ -149,6 +149,8 @@ impl Joints {
     /// # Errors
     /// [`JointsError`] if the text is no list, an entry is no state, or interface 1 slides on a corner of the ground.
     pub fn parse(text: &str) -> Result<Joints, JointsError> {
+        // Figures have the minus sign of typography.
+        let text = &text.replace('−', "-");
         let list = text.trim().strip_prefix('(').and_then(|text| text.strip_suffix(')')).ok_or(JointsError::NoList)?;
         let entry = |(index, text): (usize, &str)| {
             Joint::parse(text.trim()).ok_or_else(|| JointsError::NoState(index + 1, text.trim().into()))

@@ -219,7 +219,8 @@ pub trait MovingProgram<S: Scalar, const ANGLES: usize, const TRANSLATIONS: usiz
 pub type SceneConstants<S> = fn(&Geometry<S>) -> Vec<S>;
 
 /// Contact forces `[N, T, M]` of one interface from
-/// `(constants, cos θ, sin θ, θ̇, θ̈, ground_x, gravity)`; `M` is zero where the interface is open.
+/// `(constants, cos θ, sin θ, θ̇, θ̈, ground_x, gravity)`; `M` is zero where the interface is open. `N` and `T` are those of any `θ̈`; `M` is that of
+/// `θ̈` that satisfies the equations of motion, as links above an interface have no moment about their own pivots.
 pub type ContactForces<S> = fn(&[S], &[S], &[S], &[S], &[S], S, S) -> [S; 3];
 
 /// Generated equations of the contact forces at one interface.

@@ -227,23 +227,33 @@ impl Style for SceneNames<'_> {
     }
 }
 
-/// Name of a sum of levers: `lateral_to_centroid_of_body_2` by the last body, with `_from_1` added for the first body if that is lower.
+/// Name of a sum of levers by where it ends, with `_from_1` added for the first body if that is lower than the last: `left_to_centroid_of_body_2`,
+/// `right_to_pivot_above_body_1`.
 fn body_lever(arena: &Arena, terms: &[(Rational, Expr)]) -> Option<String> {
-    let parts = terms.iter().map(|(_, term)| arena.symbol_name(*term).map(split)).collect::<Option<Vec<_>>>()?;
-    let of = |family: &str| parts.iter().filter(|part| part.0 == family).map(|part| part.1).max();
-    for (family, name) in [
-        ("centroid_lateral", "lateral_to_centroid"),
-        ("centroid_axial", "axial_to_centroid"),
-        ("top_lateral", "lateral_to_top"),
-        ("top_axial", "axial_to_top"),
-    ] {
-        if let Some(body) = of(family) {
-            let first = parts.iter().map(|part| part.1).min().filter(|first| *first < body);
-            let from = first.map_or(String::new(), |first| format!("_from_{first}"));
-            return Some(format!("{name}_of_body_{body}{from}"));
-        }
-    }
-    None
+    let parts = terms.iter().map(|(coefficient, term)| {
+        let (family, body) = split(arena.symbol_name(*term)?);
+        Some((family, body, coefficient.numerator))
+    });
+    let parts = parts.collect::<Option<Vec<_>>>()?;
+    let last = |family: &str| parts.iter().filter(|part| part.0 == family).max_by_key(|part| part.1);
+    // Sizes of bodies are positive to the right.
+    let side = |numerator| if numerator > 0 { "right" } else { "left" };
+    let ending_at = |end: String, body: usize| {
+        let first = parts.iter().map(|part| part.1).min().filter(|first| *first < body);
+        format!("{end}_body_{body}{}", first.map_or(String::new(), |first| format!("_from_{first}")))
+    };
+    let ends = [
+        last("centroid_lateral").map(|&(_, body, sign)| (format!("{}_to_centroid_of", side(sign)), body)),
+        last("centroid_axial").map(|&(_, body, _)| ("axial_to_centroid_of".into(), body)),
+        last("top_lateral").map(|&(_, body, sign)| {
+            let ends_at_pivot = parts.iter().any(|part| part.0 == "pivot" && part.1 == body + 1);
+            let end = if ends_at_pivot { "pivot_above" } else { "top_of" };
+            (format!("{}_to_{end}", side(sign)), body)
+        }),
+        last("top_axial").map(|&(_, body, _)| ("axial_to_top_of".into(), body)),
+    ];
+    let (end, body) = ends.into_iter().flatten().next()?;
+    Some(ending_at(end, body))
 }
 
 /// Splits a symbol into family and block: `half_height_2` into `half_height` and 2.

@@ -15,7 +15,7 @@ Angles are absolute and clockwise positive. `axial` is the component along the a
 
 /// Notation of step programs.
 pub const PROGRAM_UNITS: &str = "
-Accelerations do not depend on the unit of mass. Step programs measure mass by J_1, the moment of inertia of the lowest link: `inertia_a` is J_a / J_1, `moment_axial_a` is the axial component of S_a / J_1, and J_1 itself is one. Where an `inverse_gravity` is among the constants, accelerations are measured by gravity, so that gravity is one, too: moments are then times gravity, and levers over gravity.
+Accelerations do not depend on the unit of mass. Step programs measure mass by J_1, the moment of inertia of the lowest link: `inertia_ratio_a` is J_a / J_1, `moment_axial_a` is the axial component of S_a / J_1, and J_1 itself is one. Where an `inverse_gravity` is among the constants, accelerations are measured by gravity, so that gravity is one, too: moments are then times gravity, and levers over gravity.
 ";
 
 /// Notation of programs with translations.
@@ -76,20 +76,24 @@ pub fn group(name: &str, previous: Option<&str>) -> Option<&'static str> {
     (previous.and_then(of) != Some(own)).then_some(own)
 }
 
-/// Meaning of a constant.
-pub fn meaning(name: &str) -> String {
+/// Meaning of a constant. In some programs gravity is the unit of acceleration: `is_by_gravity`.
+pub fn meaning(name: &str, is_by_gravity: bool) -> String {
     let (stem, numbers) = stem(name);
     let link = numbers.first().copied().unwrap_or_default();
     if let Some(opposite) = name.strip_prefix("minus_") {
-        return format!("minus the {}", meaning(opposite));
+        return format!("minus the {}", meaning(opposite, is_by_gravity));
     }
     let (is_si, stem) = stem.strip_prefix("link_").map_or((false, stem), |stem| (true, stem));
     let by_inertia = if is_si { "" } else { " over J_1" };
+    let [times_gravity, over_gravity] =
+        if is_by_gravity && !is_si { [", times gravity,", ", over gravity"] } else { [""; 2] };
     let side = if stem.ends_with("axial") { "axial" } else { "lateral" };
     match stem {
-        "inertia" => format!("moment of inertia J_{link}{by_inertia}"),
-        "moment_axial" | "moment_lateral" => format!("{side} component of the first moment S_{link}{by_inertia}"),
-        "lever_axial" | "lever_lateral" => format!("{side} component of the lever d_{link}"),
+        "inertia" | "inertia_ratio" => format!("moment of inertia J_{link}{by_inertia}"),
+        "moment_axial" | "moment_lateral" => {
+            format!("{side} component of the first moment S_{link}{times_gravity}{by_inertia}")
+        }
+        "lever_axial" | "lever_lateral" => format!("{side} component of the lever d_{link}{over_gravity}"),
         "weight_axial" | "weight_lateral" => format!("{side} component of the first moment S_{link}, times gravity, over J_1"),
         "steady_gravity" => "gravity, fixed by the scene".into(),
         "inverse_gravity" => "reciprocal of gravity".into(),

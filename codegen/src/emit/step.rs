@@ -51,8 +51,10 @@ fn describe(title: &str, program: &Program) -> TokenStream {
     if !program.constants.is_empty() {
         text.push_str("\n\nScene constants, in order:\n");
     }
+    let is_by_gravity = program.constants.iter().any(|constant| constant.name == "inverse_gravity");
     for constant in &program.constants {
-        text.push_str(&format!("\n- `{}` `[{}]`: {}", constant.name, constant.unit, meaning(&constant.name)));
+        let meaning = meaning(&constant.name, is_by_gravity);
+        text.push_str(&format!("\n- `{}` `[{}]`: {meaning}", constant.name, constant.unit));
     }
     doc(&text)
 }
@@ -161,8 +163,11 @@ pub fn series_program(program: &Program) -> TokenStream {
 pub fn force_program(index: usize, program: &Program) -> TokenStream {
     let name = force_name(index);
     let Some(routine) = program.routines.first() else { return TokenStream::new() };
-    let what = if routine.outputs.len() == 3 { "closed interface: `[N, T, M]`" } else { "open interface: `[N, T, 0]`" };
-    let doc = describe(&format!("Contact forces at one {what}, {} free angle(s).", program.dof), program);
+    let (what, of_motion) = match routine.outputs.len() {
+        3 => ("closed interface: `[N, T, M]`", " M is that of accelerations that satisfy the equations of motion."),
+        _ => ("open interface: `[N, T, 0]`", ""),
+    };
+    let doc = describe(&format!("Contact forces at one {what}, {} free angle(s).{of_motion}", program.dof), program);
     let body = body(program, routine.name, &HashMap::new());
     quote! {
         #doc

@@ -6,6 +6,7 @@
 
 use super::compact::{Compact, Definition, Position};
 use super::listing::Listing;
+use super::words::{capital, counted, joined, links_in_words, listed, positions};
 use crate::derivation::{Derivation, derive};
 use crate::mechanics::{Symbols, Vector};
 use crate::optimise::Form;
@@ -85,6 +86,9 @@ pub(super) fn document(title: &str, author: &str, columns: usize) -> String {
         env!("CARGO_PKG_VERSION"),
     )
 }
+
+/// What the sizes of blocks stand for.
+const ALIGNED: &str = "Blocks are rectangles and stand aligned; tapered and displaced blocks have the same equations with other constants.";
 
 /// How the symbols of a derivation and of its compact form are set.
 fn notation(symbols: &Symbols, compact: &Compact) -> Notation {
@@ -170,7 +174,6 @@ impl Page<'_> {
 
     /// Meanings of the symbols, and the blocks of each link.
     fn words(&mut self, pattern: &Pattern) {
-        let links = pattern.linkage().link_of_block();
         let numbers = |state: Interface| -> Vec<usize> { positions(&pattern.0, |known| *known == state) };
         let mut states = Vec::new();
         for (state, text) in [
@@ -189,20 +192,9 @@ impl Page<'_> {
             format!("$p_{{{0}}} = {sign}c_{{{0}}}$", index + 1)
         });
         let pivots: Vec<String> = pivots.collect();
-        let mut members = Vec::new();
-        let resting = positions(&links, |link| *link == 0);
-        if !resting.is_empty() {
-            let verb = if resting.len() == 1 { "stays" } else { "stay" };
-            members.push(format!("{} {verb} with the ground", listed("block", &resting)));
-        }
-        for link in 1..=pattern.dof() {
-            let blocks = positions(&links, |known| *known == link);
-            let verb = if blocks.len() == 1 { "is" } else { "are" };
-            members.push(format!("{} {verb} link {link}, turned by $\\theta_{{{link}}}$", listed("block", &blocks)));
-        }
         let text = format!(
             "Block $i$, counted from the base, has half-height $h_i$, mass $m_i$ and centroidal moment of inertia $I_i$. \
-             Interface~$i$ lies below it and has contact half-width $c_i$. \
+             Interface~$i$ lies below it and has contact half-width $c_i$. {} \
              Rotations are absolute, in radians and clockwise positive; $x$ points to the right and $y$ upwards, and a body \
              vector with lateral component $u$ and axial component $v$ is turned by\n\
              \\begin{{equation*}}\n  R(\\theta) (u, v) = (u \\cos\\theta + v \\sin\\theta, -u \\sin\\theta + v \\cos\\theta).\n\
@@ -210,9 +202,10 @@ impl Page<'_> {
              In the pattern ${pattern}$ {}. The pivots lie at {} from the axis of the column. {}. \
              The ground accelerates by $\\ddot x_g$ and $\\ddot y_g$; vertical motion acts like a change of gravity, \
              $\\hat g = g + \\ddot y_g$.",
+            ALIGNED,
             states.join("; "),
             joined(&pivots),
-            capital(&members.join("; ")),
+            capital(&links_in_words(&pattern.linkage().link_of_block(), |link| format!("$\\theta_{{{link}}}$"))),
         );
         self.section("Notation", &text);
     }
@@ -419,38 +412,8 @@ pub(super) fn equation_to_zero(left: &Formula) -> Vec<String> {
     lines
 }
 
-/// Numbers, from 1, of the members for which `holds`.
-fn positions<T>(members: &[T], holds: impl Fn(&T) -> bool) -> Vec<usize> {
-    members.iter().enumerate().filter(|(_, member)| holds(member)).map(|(index, _)| index + 1).collect()
-}
-
 /// Printed index of a pair of links (from zero): `12`, or `1,12` where the digits would run together.
 fn pair_index(a: usize, b: usize) -> String {
     let separator = if b >= 9 { "," } else { "" };
     format!("{}{separator}{}", a + 1, b + 1)
-}
-
-/// `1 block`, `2 blocks`.
-pub(super) fn counted(count: usize, noun: &str) -> String {
-    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
-}
-
-/// `block 1`, `blocks 2 and 3`.
-fn listed(noun: &str, numbers: &[usize]) -> String {
-    let texts: Vec<String> = numbers.iter().map(usize::to_string).collect();
-    format!("{noun}{}~{}", if numbers.len() == 1 { "" } else { "s" }, joined(&texts))
-}
-
-/// `a, b and c`
-pub(super) fn joined(texts: &[String]) -> String {
-    match texts {
-        [] => String::new(),
-        [only] => only.clone(),
-        [first @ .., last] => format!("{} and {last}", first.join(", ")),
-    }
-}
-
-fn capital(text: &str) -> String {
-    let mut characters = text.chars();
-    characters.next().map_or(String::new(), |first| first.to_uppercase().chain(characters).collect())
 }

@@ -6,6 +6,7 @@ mod latex;
 mod listing;
 mod moving;
 mod text;
+mod words;
 
 pub use compact::{Compact, Coupling, Definition, Position};
 pub use counts::counts;

@@ -1,7 +1,8 @@
 //! The derivation of states that slide or fly as plain text and LaTeX, operation counts, and the code of their program.
 
-use super::latex::{counted, document, equation, equation_to_zero, joined};
-use super::text::{numbered, program_text};
+use super::latex::{document, equation, equation_to_zero};
+use super::text::{NOTATION, numbered, program_text};
+use super::words::{capital, counted, joined, links_in_words};
 use crate::emit;
 use crate::joints::{Carrier, Joint, Joints, Slip};
 use crate::mechanics::{Coordinate, Kind, Quantities, Rows, Vector, rows_of_motion};
@@ -28,6 +29,8 @@ pub fn moving_text(joints: &Joints) -> String {
         .for_each(|term| *term = arena.expand(*term));
     let record = record(joints);
     let mut out = title(joints, &record);
+    let links = links_in_words(&joints.linkage().link_of_block(), |link| format!("theta_{link}"));
+    let _ = write!(out, "{}.\n{NOTATION}{ALIGNED}", capital(&links.replace('~', " ")));
     let centroids = rows.centroids.iter().enumerate();
     let centroids =
         centroids.flat_map(|(block, [x, y])| [(format!("x_{}", block + 1), *x), (format!("y_{}", block + 1), *y)]);
@@ -38,12 +41,7 @@ pub fn moving_text(joints: &Joints) -> String {
     section(&mut out, &arena, "Matrix of the second derivatives, not symmetric where an interface slides", entries);
     section(&mut out, &arena, "Rate terms", numbered("B", &rows.bias));
     let forcing = numbered("Q", &rows.forcing);
-    section(
-        &mut out,
-        &arena,
-        "Gravity and ground motion (gravity stands for g + the vertical ground acceleration)",
-        forcing,
-    );
+    section(&mut out, &arena, "Gravity and ground motion", forcing);
     let names: Vec<&str> = rows.coordinates.iter().filter_map(|each| arena.symbol_name(each.value)).collect();
     let _ = writeln!(
         out,
@@ -52,13 +50,17 @@ pub fn moving_text(joints: &Joints) -> String {
     );
     section(&mut out, &arena, "What links and translations carry at the present slides: inputs of the program", inputs);
     out.push_str(
-        "Inputs that are not listed are zero. Lateral components point to the left. Further inputs of translation c: cos_face_c and sin_face_c of the angle\n\
+        "Inputs that are not listed are zero. Further inputs of translation c: cos_face_c and sin_face_c of the angle\n\
          of its face, face_omega_c, the rate of the face, rate_c, that of the translation, and lift_c, mu with the sign of the slide. In flight lift_c is zero,\n\
          and the vertical direction has cos_face_c = 0 and sin_face_c = -1.\n",
     );
     out.push_str(&program_text(&record.program));
     out
 }
+
+/// What the sizes of blocks stand for.
+const ALIGNED: &str = "Centroids are at half height, and interfaces that stick stand aligned: c_i is half the contact at interface i. Tapered blocks, and blocks that\n\
+    stick displaced, have the same programs with other inputs. u_i [m]: slide of interface i, to the right along its face; mu_i: its coefficient of kinetic friction.\n";
 
 /// Lines `left = right` below a heading, without those that are zero.
 fn section(out: &mut String, arena: &Arena, name: &str, lines: impl IntoIterator<Item = (String, Expr)>) {
@@ -157,10 +159,16 @@ fn described(joint: Joint, number: usize, friction: &str) -> String {
             "in flight, apart_x_{number} and apart_y_{number} from the middle of the lower face to the middle of the upper one"
         );
     };
+    let below = number - 1;
+    let corner = match (slip, carrier) {
+        (Slip::Sticks, _) => format!("c_{number}"),
+        (_, Carrier::Lower) => format!("bottom_half_width_{number}"),
+        (_, Carrier::Upper) => format!("top_half_width_{below}"),
+    };
     let place = match interface {
         Interface::Closed => "closed".into(),
-        Interface::Right => format!("on the right corner, pivot_{number} = c_{number}"),
-        Interface::Left => format!("on the left corner, pivot_{number} = -c_{number}"),
+        Interface::Right => format!("on the right corner, pivot_{number} = {corner}"),
+        Interface::Left => format!("on the left corner, pivot_{number} = -{corner}"),
     };
     let (to, sign) = match slip {
         Slip::Sticks => return format!("{place}, sticks"),
@@ -219,11 +227,14 @@ impl Sections<'_> {
         let joints = self.joints.0.iter().enumerate();
         let states =
             joints.map(|(index, joint)| format!("interface~{} is {}", index + 1, described_in_tex(*joint, index + 1)));
+        let links = links_in_words(&self.joints.linkage().link_of_block(), |link| format!("$\\theta_{{{link}}}$"));
         let _ = write!(
             out,
             "\n\\section*{{Notation}}\nBlock $i$, counted from the base, has half-height $h_i$, mass $m_i$ and centroidal moment of inertia $I_i$; \
              interface~$i$ lies below it, with the pivot $p_i$ from the axis and the coefficient of kinetic friction $\\mu_i$. Rotations are absolute and \
-             clockwise positive, and a body vector is turned by $R(\\theta) (u, v) = (u \\cos\\theta + v \\sin\\theta, -u \\sin\\theta + v \\cos\\theta)$. \
+             clockwise positive: {links}. A body vector is turned by $R(\\theta) (u, v) = (u \\cos\\theta + v \\sin\\theta, -u \\sin\\theta + v \\cos\\theta)$. \
+             The half-widths of base and top of block $i$ are $b_i^{{\\mathrm{{bot}}}}$ and $b_i^{{\\mathrm{{top}}}}$. Centroids are at half height, and interfaces \
+             that stick stand aligned, with contacts of half-width $c_i$; tapered blocks, and blocks that stick displaced, have the same programs with other inputs. \
              Of these states, {}. The ground accelerates by $\\ddot x_g$, and $\\hat g = g + \\ddot y_g$.\n",
             joined(&states.collect::<Vec<_>>())
         );
@@ -415,13 +426,19 @@ fn tex_of(joint: Joint) -> String {
 fn described_in_tex(joint: Joint, number: usize) -> String {
     let Joint::Contact(interface, slip, carrier) = joint else {
         return format!(
-            "in flight, $(x, y)_{{{number}}}$ from the middle of the lower face to the middle of the upper one"
+            "in flight, $(x^{{f}}_{{{number}}}, y^{{f}}_{{{number}}})$ from the middle of the lower face to the middle of the upper one"
         );
+    };
+    let below = number - 1;
+    let corner = match (slip, carrier) {
+        (Slip::Sticks, _) => format!("c_{{{number}}}"),
+        (_, Carrier::Lower) => format!("b_{{{number}}}^{{\\mathrm{{bot}}}}"),
+        (_, Carrier::Upper) => format!("b_{{{below}}}^{{\\mathrm{{top}}}}"),
     };
     let place = match interface {
         Interface::Closed => "closed".into(),
-        Interface::Right => format!("on its right corner, $p_{{{number}}} = c_{{{number}}}$,"),
-        Interface::Left => format!("on its left corner, $p_{{{number}}} = -c_{{{number}}}$,"),
+        Interface::Right => format!("on its right corner, $p_{{{number}}} = {corner}$,"),
+        Interface::Left => format!("on its left corner, $p_{{{number}}} = -{corner}$,"),
     };
     let side = match slip {
         Slip::Sticks => return format!("{place} and sticks"),

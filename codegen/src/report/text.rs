@@ -1,5 +1,6 @@
 //! A mode's derivation as plain text, and its code.
 
+use super::words::{capital, links_in_words};
 use crate::derivation::{Derivation, derive};
 use crate::emit;
 use crate::ground::GroundMotion;
@@ -8,11 +9,21 @@ use crate::pattern::{Interface, Pattern};
 use crate::symbolic::{Arena, Expr};
 use std::fmt::Write;
 
+/// Meanings of the symbols.
+pub(super) const NOTATION: &str = "theta_a [rad], omega_a, theta_ddot_a: angle, rate and angular acceleration of link a, absolute and clockwise positive; cos_a, sin_a: cosine and sine of theta_a.\n\
+    half_height_i [m], mass_i [kg], inertia_i [kg m^2]: of block i, counted from the base, inertia about its centroid. pivot_i [m]: where block i turns, right of its axis.\n\
+    ground_x [m/s^2]: acceleration of the ground to the right; gravity: g + vertical acceleration of the ground. Lateral components point to the left of a link, axial ones upwards.\n";
+
+/// What the sizes of blocks stand for.
+const ALIGNED: &str = "Blocks are rectangles and stand aligned: c_i is half the contact at interface i. Tapered and displaced blocks have the same programs with other constants.\n";
+
 /// The derivation of a pattern, from positions to the step-time program, as plain text.
 pub fn text(pattern: &Pattern) -> String {
     let derivation = derive(&pattern.linkage());
     let Derivation { arena, symbols, equations, .. } = &derivation;
     let mut out = title(pattern);
+    let links = links_in_words(&pattern.linkage().link_of_block(), |link| format!("theta_{link}"));
+    let _ = write!(out, "{}.\n{NOTATION}{ALIGNED}", capital(&links.replace('~', " ")));
     let mut section = |name: &str, lines: Vec<(String, Expr)>| {
         let _ = writeln!(out, "\n{name}");
         for (left, right) in lines {
@@ -25,19 +36,20 @@ pub fn text(pattern: &Pattern) -> String {
         .enumerate()
         .flat_map(|(block, [x, y])| [(format!("x_{}", block + 1), *x), (format!("y_{}", block + 1), *y)]);
     section("Positions of the centroids relative to the ground [m]", centroids.collect());
-    section(
-        "Energies [J] (gravity stands for g + the vertical ground acceleration)",
-        vec![("T".into(), equations.kinetic), ("V".into(), equations.potential)],
-    );
+    section("Energies [J]", vec![("T".into(), equations.kinetic), ("V".into(), equations.potential)]);
     let dof = symbols.theta.len();
     let mass = (0..dof).flat_map(|a| (0..=a).map(move |b| (a, b)));
     section(
         "Mass matrix [kg m^2] (symmetric)",
-        mass.map(|(a, b)| (format!("M_{}{}", a + 1, b + 1), equations.mass[a][b])).collect(),
+        mass.map(|(a, b)| (format!("M_{}_{}", a + 1, b + 1), equations.mass[a][b])).collect(),
     );
     section("Rate terms [N m]", numbered("B", &equations.bias));
     section("Gravity and ground motion [N m]", numbered("Q", &equations.forcing));
-    let _ = writeln!(out, "\nEquations of motion: sum over b of M_ab alpha_b + B_a + Q_a = 0");
+    let _ = writeln!(
+        out,
+        "\nEquations of motion: sum over b of M_a_b theta_ddot_b + B_a + Q_a = 0\n\
+         In constants and programs below, numbers of names are those of links, and mass is measured by the moment of inertia of link 1."
+    );
     for ground in GroundMotion::ALL {
         let program = derivation.acceleration(ground);
         let (what, form) = match ground {
@@ -56,8 +68,12 @@ pub fn text(pattern: &Pattern) -> String {
 /// The emitted Rust of a pattern: its step program and its scene constants.
 pub fn rust(pattern: &Pattern) -> String {
     let heading: String = title(pattern).lines().map(|line| format!("// {line}\n")).collect();
-    format!("{heading}{}", emit::excerpt(&derive(&pattern.linkage())))
+    format!("{heading}{EXCERPT}{}", emit::excerpt(&derive(&pattern.linkage())))
 }
+
+/// What an excerpt leaves out.
+const EXCERPT: &str = "// An excerpt of the module that the build generates. Traits are those of `rocking::program`; programs of Taylor series\n\
+    // (`SeriesDof2` and the like) and of contact forces are in the module alone.\n//\n";
 
 pub(super) fn title(pattern: &Pattern) -> String {
     let name = match pattern.mode() {

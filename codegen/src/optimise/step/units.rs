@@ -37,15 +37,21 @@ pub fn in_units(mut program: Program, source: &mut Arena, units: Units, inertia:
     }
     // Constants that have become one vanish, and those that have become equal or opposite share a name.
     let mut known: HashMap<Expr, Expr> = HashMap::new();
-    for constant in &program.constants {
-        let opposite = source.neg(constant.source);
+    for constant in &mut program.constants {
+        let (symbol, opposite) = (constant.symbol, source.neg(constant.source));
         if *source.node(constant.source) == Node::Number(Rational::ONE) {
-            rename.insert(constant.symbol, program.arena.one());
+            rename.insert(symbol, program.arena.one());
         } else if let Some(&same) = known.get(&constant.source) {
-            rename.insert(constant.symbol, same);
+            rename.insert(symbol, same);
         } else if let Some(&other) = known.get(&opposite) {
-            rename.insert(constant.symbol, program.arena.neg(other));
+            rename.insert(symbol, program.arena.neg(other));
         } else {
+            // A moment of inertia over that of the lowest link has a name of its own: blocks have `inertia_1`, too.
+            if let Some(link) = constant.name.strip_prefix("inertia_") {
+                constant.name = format!("inertia_ratio_{link}");
+                constant.symbol = program.arena.symbol(&constant.name, Level::Scene, constant.unit);
+                rename.insert(symbol, constant.symbol);
+            }
             known.insert(constant.source, constant.symbol);
         }
     }
