@@ -14,7 +14,8 @@ use rocking::IntegrateOptions;
 use rocking::dynamics::Ground;
 use rocking::pattern::{Interface, Pattern};
 use rocking::{
-    Block, Column, DynamicsSource, EventKind, Excitation, Method, Mode, Motion, Record, Response, Scene, simulate,
+    Block, Column, DynamicsSource, EventKind, Excitation, Friction, Method, Mode, Motion, Record, Response, Scene,
+    StopReason, simulate,
 };
 
 /// A tolerance at which a run of a hundred steps errs by 1e-10.
@@ -616,4 +617,47 @@ fn regression_a_fixed_step_is_not_cut_for_good() {
     // Each remainder is a step of its own, or two.
     let most = scene.options.t_end / scene.options.step + 2.0 * (f64::from(samples) + response.events.len() as f64);
     assert!((response.work.steps as f64) < most, "{} steps for {most}", response.work.steps);
+}
+
+/// The top block of equal ones rocks, and its push brings the resultants of all closed interfaces to their corners at the same time: `T 2h k = k W b` about the
+/// corner `k` blocks below. What holds an instant later decides, in one event; rounding opened and closed all of them in turn, and a separation followed.
+#[test]
+fn equal_blocks_below_one_that_rocks_open_in_one_event() {
+    for (count, half_width, half_height, tilt) in [
+        (4, 0.309, 0.633, 0.1174),
+        (4, 0.355, 0.701, 0.1793),
+        (5, 0.309, 0.633, 0.1174),
+        (6, 0.25, 0.51, 0.12),
+        (7, 0.213, 0.43, 0.117),
+    ] {
+        let column = Column::new(vec![Block::rectangle(half_width, half_height, 2000.0); count], 9.81).expect("valid");
+        let mut theta = vec![0.0; count];
+        theta[count - 1] = tilt;
+        let mut ends: Vec<Vec<f64>> = Vec::new();
+        every(|method, dynamics| {
+            let mut falling = scene(column.clone(), &theta, method, dynamics);
+            let mut with_friction = falling.clone();
+            with_friction.friction = Some(Friction::uniform(0.9));
+            assert_ne!(run(&with_friction).status, StopReason::Undetermined, "{count} {method:?}");
+            let response = run(&falling);
+            let until_impact = response.events.iter().take_while(|event| event.kind != EventKind::Impact);
+            let kinds: Vec<EventKind> = until_impact.map(|event| event.kind).collect();
+            assert_eq!(kinds, [EventKind::Opening], "{count} {method:?}");
+            let [opening, impact] = [&response.events[0], &response.events[1]];
+            assert!(response.separations.iter().all(|separation| separation.t > impact.t), "{count} {method:?}");
+            // Between both, the pattern holds: forces allow no other.
+            let middle = 0.5 * (opening.t + impact.t);
+            falling.options.t_end = middle;
+            falling.output_dt = Some(middle);
+            let (state, ground) = (run(&falling), Ground { x: 0.0, gravity: 9.81 });
+            let last = state.samples.last().expect("a row at the end");
+            let closed: Vec<usize> = (0..count).filter(|i| !opening.after.0[*i].is_open()).collect();
+            let answers = opening_answers(&column, &opening.after, &last.theta, &last.omega, &closed, ground);
+            let admissible: Vec<&Pattern> =
+                answers.iter().filter(|answer| answer.margin > 1e-9).map(|answer| &answer.pattern).collect();
+            assert_eq!(admissible, [&opening.after], "{count} {method:?}");
+            ends.push(end(&state));
+        });
+        assert!(ends.iter().all(|other| distance(other, &ends[0]) < 1e-9), "{count}: {ends:?}");
+    }
 }

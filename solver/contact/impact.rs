@@ -108,6 +108,7 @@ fn impact_at<S: Size>(
         pattern: Pattern::from_states(&candidate.mechanism.states),
         omega: PerBlock::from_slice(&rates),
         separation: !is_impact_admissible || !is_motion_admissible,
+        is_critical: false,
         energy_lost,
         plastic_impulses: match impulses.is_some() && rebounds {
             true => PerBlock::from_slice(&plastic.resultants),
@@ -145,6 +146,7 @@ pub(crate) fn stick(
         pattern: Pattern::from_states(&mechanism.states),
         omega: PerBlock::from_slice(&answer.angular),
         separation: true,
+        is_critical: false,
         energy_lost: share_lost(energy_before, energy_after),
         impulses: PerBlock::from_slice(&answer.resultants),
         plastic_impulses: PerBlock::new(),

@@ -24,7 +24,7 @@ mod state_at_event;
 pub use decision::Decision;
 pub(crate) use impact::stick;
 pub use impact::{ImpactLaw, impact};
-pub use opening::open;
+pub use opening::{open, open_an_instant_later};
 pub(crate) use restitution::ENERGY_ROUNDING;
 pub use state_at_event::SingularMass;
 pub(crate) use state_at_event::{Gaps, critical_acceleration, rounding_acceleration};

@@ -2,7 +2,9 @@
 
 use super::decision::Decision;
 use super::search::{ContactProblem, Found};
-use super::state_at_event::{Mechanism, SingularMass, StateAtEvent, accelerate, critical_acceleration, may_choose};
+use super::state_at_event::{
+    Mechanism, SingularMass, StateAtEvent, accelerate, chosen, critical_acceleration, may_choose,
+};
 use crate::column::Column;
 use crate::mechanics::dynamics::Ground;
 use crate::mechanics::kinematics::relative;
@@ -25,6 +27,31 @@ pub fn open(
     released: &[(usize, Interface)],
 ) -> Result<Decision, SingularMass> {
     for_size!(column.len(), size => open_at(&StateAtEvent::new(size, column, theta), pattern, omega, ground, released))
+}
+
+/// As [`open`] without released interfaces, a time `dt` `[s]` later on the way of the pattern: `ground` is that of now and of then. Where the resultants
+/// of several interfaces reach corners at the same time, as in columns of equal blocks below one that rocks, they have clearly passed them by then.
+///
+/// # Errors
+/// [`SingularMass`]
+pub fn open_an_instant_later(
+    column: &Column,
+    pattern: &Pattern,
+    theta: &[f64],
+    omega: &[f64],
+    ground: [Ground; 2],
+    dt: f64,
+) -> Result<Decision, SingularMass> {
+    for_size!(column.len(), size => {
+        let at_event = StateAtEvent::new(size, column, theta);
+        let accelerations = accelerate(&at_event.mechanism(at_event.states(pattern))?, omega, ground[0]).angular;
+        let (mut theta, mut omega) = (size.copied(theta), size.copied(omega));
+        for ((theta, omega), acceleration) in theta.iter_mut().zip(omega.iter_mut()).zip(&*accelerations) {
+            *theta += dt * (*omega + 0.5 * dt * acceleration);
+            *omega += dt * acceleration;
+        }
+        open_at(&StateAtEvent::new(size, column, &theta), pattern, &omega, ground[1], &[])
+    })
 }
 
 fn open_at<S: Size>(
@@ -58,10 +85,14 @@ fn open_at<S: Size>(
     }
     let pattern = Pattern::from_states(&candidate.mechanism.states);
     let (omega, separation) = (PerBlock::from_slice(omega), found == Found::Separation);
+    let is_released = |interface: usize| released.iter().any(|(other, _)| *other == interface);
+    let mut others = chosen(&free).filter(|&interface| !is_released(interface));
+    let is_critical = !released.is_empty() && others.any(|i| candidate.is_critical(at_event.column, i, tolerance));
     Ok(Decision {
         pattern,
         omega,
         separation,
+        is_critical,
         energy_lost: 0.0,
         impulses: PerBlock::new(),
         plastic_impulses: PerBlock::new(),

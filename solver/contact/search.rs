@@ -2,6 +2,7 @@
 //! of all patterns if that fails (docs/book/model.md, section 5, item 3, and section 9).
 
 use super::state_at_event::{Answer, Mechanism, SingularMass, StateAtEvent, chosen};
+use crate::column::Column;
 use crate::mechanics::kinematics::relative;
 use crate::numerics::per_block::{PerBlock, Size};
 use rocking_codegen::pattern::Interface;
@@ -14,6 +15,9 @@ const MOST_CHOICES: usize = 9;
 /// cancel in them: a thousand times the rounding of a sum over a dozen blocks. If it were smaller, rounding would open contacts whose resultant
 /// passes through a corner. If it were larger, contacts would open visibly late.
 const CRITICAL_SHARE: f64 = 1e-12;
+
+/// Share of the largest moment of a contact by which the moment may differ from it and be critical. An instant later it is clearly above or below.
+const VERGE: f64 = 1e-9;
 
 /// A contact problem: which interfaces choose, and how a mechanism answers it.
 pub(super) struct ContactProblem<'i, 'a, S: Size, F> {
@@ -221,6 +225,20 @@ pub(super) struct Candidate<'a, S: Size> {
 }
 
 impl<S: Size> Candidate<'_, S> {
+    /// Whether an interface is at the bound between two states: its resultant passes through a corner, or it is open and does not accelerate
+    /// by more than `tolerance` `[rad/s²]`.
+    pub(super) fn is_critical(&self, column: &Column, interface: usize, tolerance: f64) -> bool {
+        let answer = &self.answer;
+        match self.mechanism.states[interface] {
+            Interface::Closed => {
+                let contact = answer.resultants[interface];
+                let moment = column.contact_half_width(interface) * contact.normal;
+                (contact.moment.abs() - moment).abs() <= VERGE * moment.abs()
+            }
+            _ => relative(&answer.angular, interface).abs() <= tolerance,
+        }
+    }
+
     /// Half the square of the distance between the answer and the motion without contacts, in the metric of the masses.
     fn distance(&self) -> f64 {
         self.mechanism.posture.kinetic_energy(&self.answer.change.linear, &self.answer.change.angular)

@@ -18,6 +18,9 @@ const EVENTS_AT_ONCE: usize = 8;
 /// Gaps of given angles below this, relative to the angles, are rounding (0.1 + 0.2 against 0.3) and count as closed.
 const CLOSED_GAP: f64 = 8.0 * f64::EPSILON;
 
+/// Time after which interfaces that reach the bound between two states together have passed it, over the time of a fall from the column's size.
+const INSTANT: f64 = 1e-6;
+
 /// A transition of the run: what the laws of contact have decided about `x⁻`.
 pub(crate) struct Transition {
     /// What happened.
@@ -162,6 +165,7 @@ fn withdraw(before: &State, closing: &[usize]) -> Transition {
             pattern,
             omega,
             separation: false,
+            is_critical: false,
             energy_lost: 0.0,
             impulses: PerBlock::new(),
             plastic_impulses: PerBlock::new(),
@@ -185,16 +189,40 @@ fn opening(
     let is_same_instant = before.contact.last_events[1] == before.t;
     let others = before.contact.released.iter().filter(|(other, _)| is_same_instant && *other != interface);
     let released: PerBlock<_> = others.copied().chain([(interface, side)]).collect();
-    let opened = [interface];
-    let opened: &[usize] = if kind == EventKind::Opening { &opened } else { &[] };
-    Ok(Transition {
+    let mut opening = Transition {
         decision: forces(problem, before, &released)?,
         kind,
         is_event: true,
-        interfaces: PerBlock::from_slice(opened),
+        interfaces: PerBlock::from_slice(&[interface]),
         released,
         is_counted: true,
-    })
+    };
+    if opening.decision.is_critical {
+        let (later, opened) = an_instant_later(problem, before)?;
+        if !opened.is_empty() {
+            opening.interfaces = opened.iter().map(|(interface, _)| *interface).collect();
+            (opening.decision, opening.released) = (later, opened);
+        }
+    }
+    if kind != EventKind::Opening {
+        opening.interfaces.clear();
+    }
+    Ok(opening)
+}
+
+/// What the laws of contact decide an instant after this state, and the interfaces that open, with their sides. `before` has its rates still.
+#[cold]
+fn an_instant_later(problem: &Problem, before: &State) -> Result<(Decision, PerBlock<(usize, Interface)>), SolveError> {
+    let column = &problem.scene.column;
+    let dt = INSTANT * (column.size() / column.gravity()).sqrt();
+    let ground = [before.t, before.t + dt].map(|t| problem.ground_at(before.segment, t));
+    let later = contact::open_an_instant_later(column, &before.pattern, &before.theta, &before.omega, ground, dt);
+    let later = later.map_err(|_| singular(before))?;
+    let opened = |(interface, state): (usize, &Interface)| {
+        (state.is_open() && !before.pattern.0[interface].is_open()).then_some((interface, *state))
+    };
+    let opened = later.pattern.0.iter().enumerate().filter_map(opened).collect();
+    Ok((Decision { omega: before.omega.clone(), ..later }, opened))
 }
 
 /// The ground acceleration has jumped: every closed interface is examined anew.
