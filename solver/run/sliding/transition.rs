@@ -83,10 +83,7 @@ pub fn transition(
             pending.change(EventKind::Edge, vec![interface], &before.configuration, None);
             (EventKind::Flight, None)
         }
-        Guard::Stop(interface) => {
-            pending.now.slide_rate[interface] = 0.0;
-            (EventKind::Stick, pending.with_slip(interface, Slip::Sticks))
-        }
+        Guard::Stop(interface) => (EventKind::Stick, pending.stop_slide(interface)),
         Guard::Cone(interface, direction) => (EventKind::Slip, pending.with_slip(interface, Slip::Slides(direction))),
         Guard::Press(interface) => (EventKind::Flight, Some((interface, Joint::Free))),
         Guard::Tip(interface, side) => {
@@ -179,17 +176,23 @@ impl<'p> PendingTransition<'p> {
         before: &Configuration,
         impulses: Option<Vec<Impulse>>,
     ) {
+        // What has happened since the event before, in the same instant, belongs to that event.
+        if let Some(last) = self.changes.last_mut() {
+            last.after.clone_from(before);
+        }
         self.changes.push(Change { kind, interfaces, before: before.clone(), after: self.now.clone(), impulses });
     }
 
     /// Decides the accelerations at `x⁺` and returns the transition. `hint` is the state of an interface named by the guard that ended the stretch.
     fn decided(mut self, kind: EventKind, hint: Option<(usize, Joint)>) -> SlidingTransition {
         if self.stop.is_none() {
-            let before = self.now.clone();
+            let (before, noted) = (self.now.clone(), self.changes.len());
             match self.settle_accelerations(&before, hint) {
                 Ok(joints) => {
                     self.adopt(&joints);
-                    self.name(kind, &before);
+                    // The jump of velocities of a jam is noted by itself.
+                    let has_jammed = self.changes.len() > noted;
+                    self.name(if has_jammed { EventKind::Impact } else { kind }, &before);
                 }
                 Err(stop) => self.stop = Some(stop),
             }
@@ -325,6 +328,21 @@ impl<'p> PendingTransition<'p> {
     fn jam(&mut self) {
         self.is_jammed = true;
         self.stop = self.strike(&self.touching(), EventKind::Impact, &[]).err();
+    }
+
+    /// Ends a slide whose rate has come to zero: the state in which the contact sticks. A rate that reversed too little to be followed at once is above
+    /// rounding when it is found; it ends as a slide that is too low does, momentum conserved: without it, its loss could add energy, again and again.
+    fn stop_slide(&mut self, interface: usize) -> Option<(usize, Joint)> {
+        let stuck = self.with_slip(interface, Slip::Sticks);
+        if let Some((_, joint)) = stuck.filter(|_| self.now.slide_rate[interface].abs() > self.resolution.speed) {
+            let (mut joints, sliding) = (self.now.joints.clone(), self.now.joints[interface]);
+            joints[interface] = joint;
+            self.hold(&joints);
+            // Accelerations decide whether it sticks.
+            self.now.joints[interface] = sliding;
+        }
+        self.now.slide_rate[interface] = 0.0;
+        stuck
     }
 
     pub fn touching(&self) -> Vec<Touch> {

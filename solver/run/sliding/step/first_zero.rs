@@ -171,6 +171,10 @@ impl<O: Output> Step<'_, '_, O> {
                     Some(0.0) if start > 0.0 => track.root(0),
                     found => found,
                 },
+                // A slide that is slow from the start and slows down stops where its rate is zero.
+                Some(0.0) if start > 0.0 && track.coefficient(1) < -rounding[1] && matches!(guard, Guard::Stop(_)) => {
+                    track.root(0)
+                }
                 // A guard that has not left zero half-way to the root has been there all the time.
                 Some(s) if track.evaluate(0.5 * s) <= rounding[0] => track.shifted(1.0, below).root(0),
                 found => found,
