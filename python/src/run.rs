@@ -13,7 +13,7 @@ use rocking::json::Explicit;
 use rocking::pattern::Pattern;
 use rocking::run_folder::{Folder, Results, Run};
 use rocking::trust::{Band, Trust, Verdict};
-use rocking::{BlockState, Event, Sample, StopReason};
+use rocking::{BlockState, Event, Sample, StopReason, Wanted};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -243,8 +243,8 @@ impl Response {
     }
 
     #[getter]
-    fn impacts(&self) -> usize {
-        self.response.impacts
+    fn impacts(&self) -> Option<usize> {
+        (self.scene.options.wanted == Wanted::Everything).then_some(self.response.impacts)
     }
 
     /// What became of the column, as in the table of a sweep.

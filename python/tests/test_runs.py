@@ -216,3 +216,25 @@ def test_a_build_without_parquet_and_pdf_says_how_to_get_them(arguments: list[st
     run = subprocess.run([sys.executable, "-m", "rocking", *arguments], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert run.returncode == 2 and told in run.stderr and "--features p" in run.stderr, run.stderr
     assert sorted(file.name for file in tmp_path.iterdir()) == ["1.parquet", "s.toml", "sweep.toml"]
+
+
+def test_impacts_of_a_run_that_ends_early_are_not_counted(tmp_path: Path):
+    """They were 0 where the whole run has 65."""
+    column, motion = rk.Column.drums(2, diameter=0.8, height=3.2, density=2500), rk.pulse("ricker", amplitude_g=0.3, period=0.6)
+    assert rk.simulate(column, motion, eta=0.9).impacts == 65
+    run = rk.simulate(column, motion, eta=0.9, wanted="outcome")
+    assert "impact" not in repr(run)
+    for call in (lambda: run.impacts, lambda: run.write(tmp_path / "run")):
+        with pytest.raises(ValueError, match="without `wanted`"):
+            call()
+
+
+def test_a_data_set_has_places_and_forces_of_sliding_blocks():
+    column = rk.Column.drums(2, diameter=0.8, height=3.2, density=2500)
+    run = rk.simulate(column, rk.pulse("ricker", amplitude_g=0.5, period=0.6), friction=0.3)
+    data, table = run.to_xarray(), run.to_pandas()
+    assert data.place.sel(direction="horizontal", block=2).values.tolist() == table.x_2.tolist()
+    assert data.normal.sel(block=1).values.tolist() == table.normal_1.tolist()
+    for array in (run.alpha, rk.Record.synthetic(1).accel):
+        with pytest.raises(ValueError, match="read-only"):
+            array *= 2

@@ -276,3 +276,51 @@ def test_a_scene_is_of_the_folder_in_which_it_was_read(tmp_path: Path, monkeypat
     monkeypatch.chdir(tmp_path / "b")
     one, other = (rk.simulate(own, rows=False).summary["peak_ground_acceleration"] for own in (scene, scene.replace(rtol=1e-8)))
     assert one == other
+
+
+def test_arguments_of_a_wrong_type_are_named():
+    """NumPy and the compiled module named no argument, and read masked values, times and texts as numbers."""
+    column, record = rk.Column.prisms(1, half_width=0.4, half_height=1.6), rk.Record.synthetic(1)
+    masked = np.ma.masked_array([0.1, 0.2], [False, True])
+    for call, told in (
+        (lambda: record.spectrum(masked), "periods has masked values"),
+        (lambda: rk.Ida(column, [record], "pgv", masked), "levels has masked values"),
+        (lambda: rk.Scene(column, theta=masked[1:]), "masked values"),
+        (lambda: rk.Ida(column, [record], "pgv", pd.to_timedelta([1], unit="s")), "levels has values of timedelta64"),
+        (lambda: rk.Ida(column, [record], "pgv", ["0.3"]), "levels has values of"),
+        (lambda: rk.Ida(column, [record], "pgv", None), "levels is of NoneType"),
+        (lambda: record.spectrum([[0.1, 0.2], [0.3]]), "periods is not regular"),
+        (lambda: record.spectrum([1.0], "a"), "damping is of str"),
+        (lambda: record.measures("a"), "gravity is of str"),
+        (lambda: record.trimmed("a", 1), "start is of str"),
+        (lambda: rk.Record.synthetic(1, duration="x"), "duration is of str"),
+        (lambda: rk.Record.read("x", units=3), "units is of int"),
+        (lambda: rk.Record(bytearray(b"abc"), 0.01), "accel is of bytearray"),
+        (lambda: rk.Record(pd.Series(["1.0", "2.0"]), 0.01), "accel is of str"),
+        (lambda: rk.StudyRecord(3, record), "name is of int"),
+        (lambda: rk.records(".", component=3), "component is of int"),
+        (lambda: rk.simulate(column, wanted=3), "wanted is of int"),
+        (lambda: rk.Block(width=[1], height=2), "width is of list"),
+        (lambda: rk.Block(width=True, height=2), "width is of bool"),
+        (lambda: rk.synthetic(5), "seeds is of int"),
+    ):
+        with pytest.raises((TypeError, ValueError), match=told):
+            call()
+    assert record.spectrum(np.array([0.5, 1.0], dtype=">f4")).shape == (2,) and rk.Record(pd.array([1, 2], dtype="Float64"), 0.01).dt == 0.01
+
+
+def test_sums_in_a_loop_are_one_sum():
+    """Each addition nested the one before: at eighty terms the text was no TOML, at 250 Python gave up."""
+    wave = lambda index: rk.pulse("harmonic", amplitude=0.02, frequency=0.5 + 0.01 * index, duration=5)
+    motion = wave(0)
+    for index in range(1, 250):
+        motion = motion + wave(index)
+    column = rk.Column.prisms(1, half_width=0.4, half_height=1.6)
+    assert rk.Scene(column, motion) == rk.Scene(column, rk.total(*map(wave, range(250))))
+
+
+def test_a_column_may_be_replaced_by_blocks():
+    scene = rk.Scene(rk.Column.prisms(1, half_width=0.4, half_height=1.6), t_end=2)
+    assert len(scene.replace(column=[rk.Block(width=1, height=2)] * 2).column) == 2
+    with pytest.raises(ValueError, match="Record.scaled"):
+        scene.replace(horizontal=rk.Record.synthetic(1)).replace(keys={"excitation.horizontal.pga_g": 0.2})

@@ -516,3 +516,32 @@ def test_whole_numbers_are_named_with_their_range() -> None:
     with pytest.raises(TypeError, match="threads is of float; give a whole number"):
         sweep.table(threads=1.5)  # type: ignore[arg-type]
     assert rk.Record.synthetic(2**64 - 1) == rk.Record.synthetic(np.uint64(2**64 - 1))
+
+
+def test_tables_as_pandas_users_have_them_are_read(recwarn: pytest.WarningsRecorder):
+    """Records in the index were no records, and levels of another byte order an error of pandas."""
+    column = rk.Column.prisms(1, half_width=0.4, half_height=1.6)
+    study = rk.ida(column, rk.synthetic(range(10), duration=8), "pgv", np.geomspace(0.4, 4, 12), trust=False)
+    own = study.fragility()
+    for table in (study.table.set_index("record"), study.table.set_index(["record", "pgv"]), study.table.assign(pgv=study.table.pgv.astype(">f8"))):
+        other = rk.Study(table).fragility()
+        assert (other.median, other.bands) == (own.median, own.bands)
+    with pytest.raises(rk.StudyError, match="no `record`"):
+        rk.Study(study.table.assign(record=study.table.record.astype("object").where(study.table.index > 0))).fragility()
+    recwarn.clear()
+    cloud = pd.DataFrame({"record": [f"r{k}" for k in range(40)], "pga": np.linspace(1, 2, 40), "pgv": np.linspace(0.1, 1.2, 40)})
+    cloud["outcome"] = np.where(np.sin(np.arange(40) * 7) + cloud.pgv > 0.8, "overturns", "rocks")
+    rk.Study(cloud, "pgv").fragility(replicates=0)
+    assert not [warning for warning in recwarn if "make one curve" in str(warning.message)]
+
+
+def test_bands_that_are_not_there_are_none():
+    column = rk.Column.drums(2, diameter=0.8, height=3.2, density=2500)
+    study = rk.ida(column, rk.synthetic(range(6), duration=6), "pgv", np.geomspace(0.2, 3, 10), friction=0.4, eta=0.9, trust=False)
+    curve = study.fragility(replicates=200)
+    assert curve.to_dict()["bands"]["median"] is None and curve.bands is None
+
+
+def test_a_range_is_an_axis():
+    scene = rk.Scene(rk.Column.prisms(1, half_width=0.4, half_height=1.6), {"kind": "synthetic", "pgv": 0.5}, eta=0.9)
+    assert len(rk.sweep(scene, {"seed": range(5)})) == 5

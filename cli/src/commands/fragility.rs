@@ -14,7 +14,7 @@ use rocking::intensity::Intensity;
 use rocking::studies::{self, Cells, DEFAULT_STATES, Fit, Fragility, FragilityOptions, LimitState, Observation};
 use rocking::sweep::ERROR;
 use serde::Serialize;
-use std::collections::{BTreeSet, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -90,7 +90,9 @@ pub fn read(table: &Path, measure: Option<&str>, conditions: &[(String, String)]
     let found = open(table).map_err(at(Failure::Study, table))?;
     let columns = Columns::of(found.header.iter().map(String::from).collect(), measure).map_err(refused)?;
     let conditions = columns.conditions(conditions).map_err(refused)?;
-    let mut values = vec![BTreeSet::new(); columns.others.len()];
+    // The records that have each value of a column that is neither the record nor the measure.
+    let mut values: Vec<BTreeMap<String, BTreeSet<String>>> = vec![BTreeMap::new(); columns.others.len()];
+    let mut records = BTreeSet::new();
     let (mut runs, mut first_error, mut cut) = (Vec::new(), None, 0);
     let mut seen = HashSet::new();
     for (number, row) in found.rows.enumerate() {
@@ -104,9 +106,11 @@ pub fn read(table: &Path, measure: Option<&str>, conditions: &[(String, String)]
             let problem = format!("row {}: the run stands in a row above as well; give each run once", number + 1);
             return Err(refused(problem));
         }
+        let record = columns.record_of(&row, number);
         for (values, place) in values.iter_mut().zip(&columns.others) {
-            values.insert(row[*place].to_string());
+            values.entry(row[*place].to_string()).or_insert_with(BTreeSet::new).insert(record.clone());
         }
+        records.insert(record);
         if let (ERROR, Some(error)) = (&row[columns.outcome], columns.error) {
             first_error.get_or_insert_with(|| row[error].to_string());
         }
@@ -122,7 +126,12 @@ pub fn read(table: &Path, measure: Option<&str>, conditions: &[(String, String)]
         };
         return Err(refused(problem.into()));
     }
-    let several = columns.others.iter().zip(&values).filter(|(_, values)| values.len() > 1);
+    // A value of its own for each record is a property of the record, such as its PGA.
+    let is_of_record = |values: &BTreeMap<String, BTreeSet<String>>| {
+        let is_of_one = |records: &BTreeSet<String>| records.len() == 1;
+        !columns.records.is_empty() && values.len() == records.len() && values.values().all(is_of_one)
+    };
+    let several = columns.others.iter().zip(&values).filter(|(_, values)| values.len() > 1 && !is_of_record(values));
     let pooled = several.map(|(place, values)| {
         let (name, count) = (&columns.names[*place], values.len());
         format!("the rows of all {count} values of `{name}` make one curve; --where {name}=VALUE keeps those of one")

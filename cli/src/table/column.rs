@@ -18,11 +18,6 @@ pub enum Kind {
     Text,
 }
 
-impl Kind {
-    /// All types.
-    pub const ALL: [Kind; 4] = [Kind::Whole, Kind::Number, Kind::Truth, Kind::Text];
-}
-
 /// A column of a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {

@@ -25,6 +25,9 @@ use std::sync::Arc;
 /// read. A change of this number changes the bytes of files.
 const GROUP: usize = 1 << 16;
 
+/// All types of columns.
+const KINDS: [Kind; 4] = [Kind::Whole, Kind::Number, Kind::Truth, Kind::Text];
+
 /// Rows held as columns.
 struct Piece {
     columns: Vec<Cells>,
@@ -186,7 +189,7 @@ fn field(column: &Column) -> std::result::Result<Arc<Type>, ParquetError> {
 pub fn columns(path: &Path) -> Result<Vec<Column>> {
     let column = |field: &Arc<Type>| {
         let name = field.name();
-        let kinds = Kind::ALL.map(|kind| [Column::full(name, kind), Column::sparse(name, kind)]);
+        let kinds = KINDS.map(|kind| [Column::full(name, kind), Column::sparse(name, kind)]);
         let known = kinds.into_iter().flatten().find(|column| self::field(column).is_ok_and(|known| known == *field));
         let unknown = || format!("no table of this program has a column `{name}` of this type");
         known.ok_or_else(|| Error::new(ErrorKind::InvalidData, unknown()))

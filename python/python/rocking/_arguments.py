@@ -6,6 +6,7 @@ import operator
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 
 def whole(name: str, value: Any) -> int:
@@ -20,10 +21,39 @@ def whole(name: str, value: Any) -> int:
 
 
 def number(name: str, value: Any) -> float:
-    """A number; text is none, though Python would read it."""
-    if isinstance(value, (str, bytes)) or not hasattr(type(value), "__float__") and not hasattr(type(value), "__index__"):
+    """A number; text, truths and arrays are none, though Python would read some of them."""
+    is_scalar = getattr(value, "ndim", 0) == 0 and (hasattr(type(value), "__float__") or hasattr(type(value), "__index__"))
+    if isinstance(value, (str, bytes, bool, np.bool_)) or not is_scalar:
         raise TypeError(f"{name} is of {type(value).__name__}; give a number")
     return float(value)
+
+
+def optional(name: str, value: Any) -> float | None:
+    """A number, or None."""
+    return None if value is None else number(name, value)
+
+
+def numbers(name: str, values: Any) -> npt.NDArray[np.float64]:
+    """An array of numbers, whatever holds them; text, times, truths, complex and masked numbers are refused."""
+    if np.ma.is_masked(values):
+        raise ValueError(f"{name} has masked values; fill them, or leave them out")
+    try:
+        array = np.asarray(values)
+    except ValueError:
+        raise TypeError(f"{name} is not regular; give a list or an array of numbers") from None
+    if array.dtype.kind == "O":
+        items = [number(f"an item of {name}" if array.ndim else name, item) for item in array.ravel().tolist()]
+        return np.array(items, dtype=np.float64).reshape(array.shape)
+    if array.dtype.kind not in "iuf":
+        raise TypeError(f"{name} has values of {array.dtype}; give numbers")
+    return array.astype(np.float64)
+
+
+def text(name: str, value: Any) -> str:
+    """A text."""
+    if not isinstance(value, str):
+        raise TypeError(f"{name} is of {type(value).__name__}; give a text")
+    return value
 
 
 def flag(name: str, value: Any) -> bool:

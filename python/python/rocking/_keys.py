@@ -16,4 +16,6 @@ def copied(value: Any) -> Any:
         return {key: copied(item) for key, item in value.items()}
     if isinstance(value, (list, tuple, range)):
         return [copied(item) for item in value]
+    if np.ma.is_masked(value):
+        raise ValueError("an array of the scene has masked values; fill them, or leave them out")
     return np.array(value) if hasattr(value, "tolist") else value

@@ -112,7 +112,12 @@ def checked(name: str, motion: Any) -> Any:
 
 
 def total(*terms: MotionLike) -> Motion:
-    """The sum of several motions."""
+    """The sum of several motions; sums among them are their terms."""
+    items: list[Any] = []
     for number, term in enumerate(terms, start=1):
         checked(f"motion {number} of the sum", term)
-    return Motion(kind="sum", term=[dict(term) if isinstance(term, Mapping) else term for term in terms])
+        if isinstance(term, Motion) and set(term) == {"kind", "term"} and term["kind"] == "sum":
+            items.extend(term["term"])
+        else:
+            items.append(dict(term) if isinstance(term, Mapping) else term)
+    return Motion(kind="sum", term=items)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _rocking
-from ._arguments import flag, number, whole
+from ._arguments import flag, number, numbers, optional, text, whole
 from ._errors import MissingFileError, SceneError
 
 if TYPE_CHECKING:
@@ -23,6 +23,15 @@ Array = npt.NDArray[np.float64]
 
 #: Size of one g [m/s²] where no scene says.
 GRAVITY = 9.81
+
+Fixed = TypeVar("Fixed", bound="npt.NDArray[Any] | None")
+
+
+def _fixed(values: Fixed) -> Fixed:
+    """An array that cannot be written to: it is a copy, and who changes it would change nothing else."""
+    if values is not None:
+        values.flags.writeable = False
+    return values
 
 
 class Record:
@@ -48,6 +57,8 @@ class Record:
             raise TypeError(f"accel is of {type(accel).__name__}; give accelerations [m/s²], or read a file with Record.read")
         if np.ma.is_masked(accel):
             raise ValueError("accel has masked samples; fill them, or cut the record there")
+        if isinstance(accel, (bytes, bytearray, memoryview)):
+            raise TypeError(f"accel is of {type(accel).__name__}; give accelerations [m/s²], as numpy.frombuffer reads them")
         if np.iscomplexobj(accel):
             raise ValueError("accel is complex; give real accelerations [m/s²]")
         given = np.asarray(accel)
@@ -55,12 +66,10 @@ class Record:
             raise TypeError(f"accel has {'times' if given.dtype.kind in 'mM' else 'texts'}; give accelerations [m/s²]")
         if given.ndim == 0 and given.dtype.kind == "O":
             raise TypeError(f"accel is of {type(accel).__name__}; give a list or an array of accelerations [m/s²]")
-        if not isinstance(name, str):
-            raise TypeError(f"name is of {type(name).__name__}; give a text")
-        samples = np.ascontiguousarray(accel, dtype=np.float64)
+        samples = np.ascontiguousarray(numbers("accel", given))
         if samples.ndim != 1:
             raise ValueError(f"accel has the shape {samples.shape}; give one acceleration per sample")
-        self._record = _rocking.Record(samples, number("dt", dt), number("start", start), name)
+        self._record = _rocking.Record(samples, number("dt", dt), number("start", start), text("name", name))
 
     @classmethod
     def _of(cls, record: _rocking.Record) -> "Record":
@@ -92,7 +101,8 @@ class Record:
         """
         name = None if column is None else str(column)
         channel, skip_rows = None if channel is None else whole("channel", channel), whole("skip_rows", skip_rows)
-        return cls._of(_rocking.Record.read(os.fspath(file), gravity, dt, units, flag("lenient", lenient), channel, skip_rows, name))
+        units, dt, gravity = None if units is None else text("units", units), optional("dt", dt), number("gravity", gravity)
+        return cls._of(_rocking.Record.read(os.fsdecode(file), gravity, dt, units, flag("lenient", lenient), channel, skip_rows, name))
 
     @classmethod
     def synthetic(
@@ -106,7 +116,8 @@ class Record:
         pga: float = 3.0,
     ) -> "Record":
         """Filtered noise, the same for the same seed on every machine; units s, s, Hz, dimensionless, m/s²."""
-        return cls._of(_rocking.Record.synthetic(whole("seed", seed), duration, dt, frequency, damping, pga))
+        sizes = {"duration": duration, "dt": dt, "frequency": frequency, "damping": damping, "pga": pga}
+        return cls._of(_rocking.Record.synthetic(whole("seed", seed), *(number(name, size) for name, size in sizes.items())))
 
     def scaled(
         self,
@@ -137,7 +148,8 @@ class Record:
         if column is not None and not hasattr(column, "_native"):
             raise TypeError(f"column is of {type(column).__name__}; give a Column")
         scene = None if column is None else column._native()
-        return Record._of(self._record.scaled_to(measure, number(measure, value), gravity, scene, sa_period, sa_damping))
+        period, damping = optional("sa_period", sa_period), optional("sa_damping", sa_damping)
+        return Record._of(self._record.scaled_to(measure, number(measure, value), number("gravity", gravity), scene, period, damping))
 
     def __add__(self, other: "MotionLike") -> "Motion":
         from ._motion import total
@@ -146,15 +158,15 @@ class Record:
 
     def trimmed(self, start: float, stop: float) -> "Record":
         """The samples from ``start`` to ``stop``, both included, counted from the first sample [s]."""
-        return Record._of(self._record.trimmed(start, stop))
+        return Record._of(self._record.trimmed(number("start", start), number("stop", stop)))
 
     def starting_at(self, start: float) -> "Record":
         """The record with its first sample at a time [s]."""
-        return Record._of(self._record.starting_at(start))
+        return Record._of(self._record.starting_at(number("start", start)))
 
     def named(self, name: str) -> "Record":
         """The record under another name."""
-        return Record._of(self._record.named(name))
+        return Record._of(self._record.named(text("name", name)))
 
     @property
     def name(self) -> str:
@@ -169,18 +181,18 @@ class Record:
 
     @property
     def accel(self) -> Array:
-        """Accelerations [m/s²], shape (samples,)."""
-        return self._record.accel
+        """Accelerations [m/s²], shape (samples,); read-only, ``copy()`` gives an array to change."""
+        return _fixed(self._record.accel)
 
     @property
     def velocity(self) -> Array:
         """Ground velocity [m/s], from rest at the first sample, shape (samples,)."""
-        return self._record.velocity
+        return _fixed(self._record.velocity)
 
     @property
     def displacement(self) -> Array:
         """Ground displacement [m], from rest at the first sample, shape (samples,)."""
-        return self._record.displacement
+        return _fixed(self._record.displacement)
 
     @property
     def dt(self) -> float:
@@ -212,12 +224,12 @@ class Record:
 
         The mean period of a record without frequencies from 0.25 to 20 Hz is NaN.
         """
-        return {name: np.nan if value is None else value for name, value in self._record.measures(gravity).items()}
+        return {name: np.nan if value is None else value for name, value in self._record.measures(number("gravity", gravity)).items()}
 
     def spectrum(self, periods: npt.ArrayLike, damping: float = 0.05) -> Array:
         """Pseudo-spectral accelerations [m/s²] at periods [s], of the shape of the periods."""
-        wanted = np.asarray(periods, dtype=np.float64)
-        return self._record.spectrum(np.ascontiguousarray(wanted.ravel()), damping).reshape(wanted.shape)
+        wanted = numbers("periods", periods)
+        return self._record.spectrum(np.ascontiguousarray(wanted.ravel()), number("damping", damping)).reshape(wanted.shape)
 
     def to_csv(self, file: str | os.PathLike[str] | None = None) -> str | None:
         """The record as a table of times and accelerations that reads back to the same samples; text where no file is given."""
@@ -263,7 +275,7 @@ class StudyRecord:
         for direction, record in (("horizontal", horizontal), ("vertical", vertical)):
             if not isinstance(record, Record) and not (record is None and direction == "vertical"):
                 raise TypeError(f"{direction} is of {type(record).__name__}; give a Record")
-        self.name = name
+        self.name = text("name", name)
         self.horizontal = horizontal
         self.vertical = vertical
 
@@ -345,7 +357,14 @@ def records(
     SceneError
         For a folder without records, a record without the component, a file that cannot be read; ``MissingFileError`` where there is no folder.
     """
-    path = os.path.abspath(folder)
+    for name, value in (("component", component), ("units", units)):
+        if value is not None:
+            text(name, value)
+    for name, value in (("vertical", vertical), ("lenient", lenient)):
+        if value is not None:
+            flag(name, value)
+    optional("dt", dt)
+    path = os.path.abspath(os.fsdecode(folder))
     if not os.path.isdir(path):
         if os.path.exists(path):
             raise SceneError(f"{path}: this is no folder; give one of record files", path, key="records.folder", problem="this is no folder")
@@ -374,5 +393,7 @@ def records(
 
 def synthetic(seeds: Iterable[int], *, duration: float = 20.0, dt: float = 0.01, frequency: float = 2.5, damping: float = 0.6) -> Records:
     """Synthetic records, one for each seed; units s, s, Hz, dimensionless."""
+    if not isinstance(seeds, Iterable):
+        raise TypeError(f"seeds is of {type(seeds).__name__}; give a sequence of whole numbers, such as range(10)")
     made = (Record.synthetic(seed, duration=duration, dt=dt, frequency=frequency, damping=damping) for seed in seeds)
     return Records(made)

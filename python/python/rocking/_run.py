@@ -8,22 +8,25 @@ import tempfile
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 from html import escape
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
 from . import _rocking
-from ._arguments import flag
+from ._arguments import flag, text
 from ._errors import SceneError
 from ._motion import MotionLike
-from ._record import Array
+from ._record import Array, _fixed
 from ._scene import Column, Scene, SceneKeys
 from ._trust import Trust
 
 #: Interval of rows that leaves one [s].
 NO_ROWS = 1e9
+
+#: What the contacts transmit, with units.
+FORCES = (("normal", "N"), ("tangential", "N"), ("moment", "N m"))
 
 if TYPE_CHECKING:
     import xarray
@@ -87,7 +90,7 @@ def simulate(
         # Rows at the usual interval are too many for the memory, and none are asked for.
         scene = _scene(base, motion, vertical, {**arguments, "output_dt": NO_ROWS})
     flags = {name: flag(name, value) for name, value in (("rows", rows), ("forces", forces), ("trust", trust))}
-    return Run(scene, scene._compiled.run(wanted=wanted, **flags))
+    return Run(scene, scene._compiled.run(wanted=text("wanted", wanted), **flags))
 
 
 def _scene(column: Scene | Column, motion: MotionLike | None, vertical: MotionLike | None, arguments: "SceneKeys") -> Scene:
@@ -114,16 +117,6 @@ def trust(
     found = simulate(column, motion, vertical=vertical, rows=False, forces=False, trust=True, **arguments).trust
     assert found is not None
     return found
-
-
-Fixed = TypeVar("Fixed", bound="npt.NDArray[Any] | None")
-
-
-def _fixed(values: Fixed) -> Fixed:
-    """An array that cannot be written to: who converts it in place would change the run."""
-    if values is not None:
-        values.flags.writeable = False
-    return values
 
 
 class Run:
@@ -253,8 +246,17 @@ class Run:
 
     @property
     def impacts(self) -> int:
-        """Number of impacts."""
-        return self._response.impacts
+        """Number of impacts.
+
+        Raises
+        ------
+        ValueError
+            Where only the outcome is asked for: such a run ends early.
+        """
+        count = self._response.impacts
+        if count is None:
+            raise ValueError("the run has its outcome alone and ends early, so that its impacts are not counted; run it without `wanted`")
+        return count
 
     @property
     def seconds(self) -> float:
@@ -269,7 +271,7 @@ class Run:
     @cached_property
     def alpha(self) -> Array:
         """Slenderness of the stack that begins with each block [rad], shape (blocks,)."""
-        return np.array(self.scene._compiled.stacks()["alpha"])
+        return _fixed(np.array(self.scene._compiled.stacks()["alpha"]))
 
     @property
     def warnings(self) -> list[str]:
@@ -307,13 +309,17 @@ class Run:
         return pd.DataFrame(columns)
 
     def to_xarray(self) -> "xarray.Dataset":
-        """The rows as a data set over ``t`` and ``block``; ``phi`` and ``top`` where the scene's ``output_columns`` ask for them."""
+        """The rows as a data set over ``t`` and ``block``: what :meth:`to_pandas` has, places and velocities over ``direction`` as well; ``phi`` and ``top`` where the scene's ``output_columns`` ask for them."""
         import xarray
 
         names = {"theta": "rad", "omega": "rad/s", "slide": "m", "gap": "m"}
         known = {name: values for name in names if (values := getattr(self, name)) is not None}
         variables = {name: (("t", "block"), values, {"units": names[name]}) for name, values in known.items()}
         ground = {"ground": (("t", "direction"), self.ground, {"units": "m/s²"})}
+        if self.place is not None and self.velocity is not None and self.force is not None:
+            variables["place"] = (("t", "block", "direction"), self.place, {"units": "m"})
+            variables["velocity"] = (("t", "block", "direction"), self.velocity, {"units": "m/s"})
+            variables.update({name: (("t", "block"), self.force[:, :, kind], {"units": unit}) for kind, (name, unit) in enumerate(FORCES)})
         asked = self._response.output_columns
         if "relative" in asked:
             variables["phi"] = (("t", "block"), self.phi, {"units": "rad"})
@@ -333,6 +339,8 @@ class Run:
 
         ``companions.csv`` as well where companions do not agree to the end.
         """
+        if self._response.impacts is None:
+            raise ValueError("the run has its outcome alone; run it without `wanted` to write its folder")
         self._response.write(os.fspath(folder))
 
     def report(self, file: str | os.PathLike[str]) -> None:
@@ -369,7 +377,7 @@ class Run:
         shares = ", ".join(f"{peak:.3g}" for peak in self.peak_theta / self.alpha) if len(self.peak_theta) else "not asked"
         facts = {
             "outcome": f"{self._lead}{self.outcome} ({self.status} at t = {self.t_final:.4g} s)",
-            "impacts": str(self.impacts),
+            **({} if self._response.impacts is None else {"impacts": str(self.impacts)}),
             **({} if self._response.trust is None else {"trust": escape(self._response.trust)}),
             "largest |θ|/α, base first": shares,
             "warnings": "<br>".join(escape(warning) for warning in self.warnings) or "none",
@@ -380,7 +388,8 @@ class Run:
     def __repr__(self) -> str:
         end = f"{self._lead}{self.outcome} ({self.status} at t = {self.t_final:.6g} s)"
         trust = "" if self._response.trust is None else f"; trust: {self._response.trust}"
-        return f"<Run: {end}, {self.impacts} impact(s), {len(self.t)} row(s){trust}>"
+        impacts = "" if self._response.impacts is None else f", {self.impacts} impact(s)"
+        return f"<Run: {end}{impacts}, {len(self.t)} row(s){trust}>"
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Run) and self._response.equals(other._response)

@@ -12,6 +12,7 @@ import numpy.typing as npt
 import pandas as pd
 
 from . import _rocking
+from ._arguments import number
 from ._keys import copied
 from ._motion import Motion, MotionLike, checked
 from ._record import Array, Record, StudyRecord
@@ -135,7 +136,7 @@ def _halved(sizes: Mapping[str, Any]) -> dict[str, Any]:
             if sizes.get(f"half_{key}") is not None:
                 raise TypeError(f"half_{key} and {key} are given; give one of them")
             # The reader refuses text, and names the key.
-            key, value = f"half_{key}", value if isinstance(value, str) else value / 2
+            key, value = f"half_{key}", value if isinstance(value, str) else number(key, value) / 2
         if value is not None:
             keys[key] = copied(value)
     return keys
@@ -342,7 +343,7 @@ class Scene:
     def replace(
         self,
         *,
-        column: "Column | None" = None,
+        column: "Column | Iterable[Mapping[str, Any]] | None" = None,
         horizontal: MotionLike | None = None,
         vertical: MotionLike | None = None,
         **arguments: "Unpack[SceneKeys]",
@@ -354,6 +355,7 @@ class Scene:
         """
         keys = self.keys
         if column is not None:
+            column = column if isinstance(column, Column) else Column(column)
             keys = {**{key: value for key, value in keys.items() if key not in OF_COLUMN}, **copied(column._keys)}
         for name, motion in (("horizontal", horizontal), ("vertical", vertical)):
             if motion is not None:
@@ -487,7 +489,8 @@ def _put(keys: dict[str, Any], key: str, value: Any) -> None:
                 if value is None:
                     return
                 if inner is not None:
-                    raise ValueError(f"`{key}`: {name} is a {type(inner).__name__} and has no keys")
+                    remedy = "give another record, as of Record.scaled" if isinstance(inner, Record) else f"give all of `{name}`, as a dictionary"
+                    raise ValueError(f"`{key}`: {name} is a {type(inner).__name__} and has no keys; {remedy}")
                 inner = place[part] = {}
             place = inner
         else:
@@ -497,7 +500,7 @@ def _put(keys: dict[str, Any], key: str, value: Any) -> None:
         (name, number) = part
         items = list(place.get(name, ()))
         if not 1 <= number <= len(items):
-            raise ValueError(f"`{key}`: the scene has no such item")
+            raise ValueError(f"`{key}`: the scene has no such item; count from 1")
         items[number - 1] = value
         place[name] = items
     elif value is None:
@@ -514,7 +517,7 @@ def _part(name: str) -> "str | tuple[str, int]":
 def _item(place: dict[str, Any], part: tuple[str, int], key: str) -> Any:
     items = place.get(part[0])
     if not isinstance(items, list) or not 1 <= part[1] <= len(items):
-        raise ValueError(f"`{key}`: the scene has no such item")
+        raise ValueError(f"`{key}`: the scene has no such item; count from 1")
     return items[part[1] - 1]
 
 

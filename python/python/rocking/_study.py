@@ -15,7 +15,7 @@ import numpy.typing as npt
 import pandas as pd
 
 from . import _rocking
-from ._arguments import flag, whole
+from ._arguments import flag, number, numbers, optional, text, whole
 from ._errors import StudyError
 from ._frame import arrow, frame
 from ._record import Array, Record, Records, StudyRecord
@@ -72,8 +72,9 @@ class Ida:
         found = records if isinstance(records, Records) else Records(records)
         if isinstance(levels, Mapping):
             raise TypeError("levels are a dictionary; give a list or an array, such as numpy.linspace(0.1, 1.0, 10)")
-        sizes = np.asarray(levels, dtype=np.float64).ravel().tolist()
-        self._source = (scene, found, measure, sizes, free_swing, sa_period, sa_damping, flag("trust", trust))
+        sizes = numbers("levels", levels).ravel().tolist()
+        times = (optional("free_swing", free_swing), optional("sa_period", sa_period), optional("sa_damping", sa_damping))
+        self._source = (scene, found, text("measure", measure), sizes, *times, flag("trust", trust))
         self._become()
 
     def _become(self) -> None:
@@ -195,7 +196,7 @@ class Study:
     Attributes
     ----------
     table, measure
-        As given; what follows from the table is computed when it is asked for.
+        As given, named levels of the table's index as columns; what follows from the table is computed when it is asked for.
     states : list of str
         Limit states of the study's file; none for a study that was not loaded from a file.
     """
@@ -203,7 +204,11 @@ class Study:
     def __init__(self, table: pd.DataFrame, measure: str | None = None) -> None:
         if not isinstance(table, pd.DataFrame):
             raise TypeError(f"table is of {type(table).__name__}; give a DataFrame of runs")
-        self.table = table
+        # Levels of an index that have names are columns, as in tables of files.
+        if any(name is not None and name not in table.columns for name in table.index.names):
+            table = table.reset_index(level=[name for name in table.index.names if name is not None and name not in table.columns])
+        swapped = {name: kind.newbyteorder("=") for name, kind in table.dtypes.items() if isinstance(kind, np.dtype) and not kind.isnative}
+        self.table = table = table.astype(swapped) if swapped else table
         if measure is None:
             known = [name for name in map(str, table.columns) if _rocking.measure_label(_last(name)) is not None]
             if len(known) != 1:
@@ -248,6 +253,9 @@ class Study:
         names = [str(name) for name in table.columns]
         of_records = [table.columns[place] for place in _rocking.record_columns(names)]
         if of_records:
+            blank = np.flatnonzero(table[of_records].isna().any(axis=1))
+            if len(blank):
+                raise StudyError(f"table.iloc[{blank[0]}] has no `{of_records[0]}`; give each run the name of its record")
             records = [", ".join(map(str, row)) for row in table[of_records].itertuples(index=False)]
         elif _rocking.is_of_one_record(names, names.index(self.measure)):
             records = ["the record of the scene"] * len(table)
@@ -257,7 +265,10 @@ class Study:
         axes = [name for name in names[: names.index("outcome")] if name not in ("index", "scale", self.measure)] if "outcome" in names else []
         for name in axes:
             count = 1 if name in of_records else table[name].nunique(dropna=False)
-            if count > 1:
+            # A value of its own for each record is a property of the record, such as its PGA.
+            own = table[[*of_records, name]].drop_duplicates() if of_records else ()
+            is_of_record = len(own) == count == len(set(records))
+            if count > 1 and not is_of_record:
                 warnings.warn(f"the rows of all {count} values of `{name}` make one curve; filter the table for those of one", stacklevel=stacklevel)
         if "truncated" in names:
             cut = int((table["truncated"].astype("string").str.lower() == "true").fillna(False).sum())
@@ -328,8 +339,12 @@ class Study:
         given = {"replicates": replicates, "confidence": confidence, "seed": seed, "layout": layout}
         options = {**self._options, **{name: value for name, value in given.items() if value is not None}}
         options.update({name: whole(name, options[name]) for name in ("replicates", "seed") if name in options})
-        text, statements = _rocking.fragility(runs, state, **options)
-        return Fragility(json.loads(text), statements, self.measure, self.label)
+        if "confidence" in options:
+            options["confidence"] = number("confidence", options["confidence"])
+        if "layout" in options:
+            text("layout", options["layout"])
+        found, statements = _rocking.fragility(runs, state, **options)
+        return Fragility(json.loads(found), statements, self.measure, self.label)
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Draws the curves of the records and the fractiles."""
@@ -359,7 +374,7 @@ class Fragility:
     median, dispersion : float or None
         Of the curve; the median in the unit of the measure.
     bands : dict or None
-        ``median``, ``dispersion`` and, over ``levels``, ``probability``: lower and upper ends.
+        ``median``, ``dispersion`` and, over ``levels``, ``probability``: lower and upper ends; None where too few resampled sets have a curve.
     goodness : dict or None
         Pearson's chi-squared, its p-value, McFadden's R².
     falls, resurrections : list
@@ -380,7 +395,8 @@ class Fragility:
         self.median: float | None = found["fit"].get("median")
         self.dispersion: float | None = found["fit"].get("dispersion")
         self.log_likelihood: float | None = found["fit"].get("log_likelihood")
-        self.bands: dict[str, Any] | None = found["bands"]
+        bands = found["bands"]
+        self.bands: dict[str, Any] | None = None if bands is None or bands["median"] is None else bands
         self.goodness: dict[str, Any] | None = found["goodness"]
         self.falls: list[list[float]] = found["falls"]
         self.resurrections: list[str] = found["resurrections"]
@@ -401,7 +417,7 @@ class Fragility:
         """
         if self.median is None or self.dispersion is None:
             raise StudyError(self.statements[0])
-        sizes = np.asarray(levels, dtype=np.float64)
+        sizes = numbers("levels", levels)
         values = _rocking.probability(self.median, self.dispersion, sizes.ravel().tolist())
         return np.array(values).reshape(sizes.shape)
 

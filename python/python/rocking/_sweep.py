@@ -60,9 +60,13 @@ class Sweep:
     ) -> None:
         if not isinstance(scene, Scene):
             raise TypeError(f"scene is of {type(scene).__name__}; give a Scene")
-        self._source: tuple[Any, ...] = (scene, copied(axes), ask, combine, copied(sampling))
-        drawn = {} if sampling is None else {"sampling": dict(sampling)}
-        text = _rocking.to_toml({"ask": ask, "combine": combine, **drawn, "axes": dict(axes)})
+        for name, value in (("axes", axes), ("sampling", {} if sampling is None else sampling)):
+            if not isinstance(value, Mapping):
+                raise TypeError(f"{name} is of {type(value).__name__}; give a dictionary")
+        axes, sampling = copied(axes), copied(sampling)
+        self._source: tuple[Any, ...] = (scene, axes, ask, combine, sampling)
+        drawn = {} if sampling is None else {"sampling": sampling}
+        text = _rocking.to_toml({"ask": ask, "combine": combine, **drawn, "axes": axes})
         self._sweep = _rocking.Sweep.from_toml(text, "<sweep>", scene.toml, scene.file)
 
     @classmethod
@@ -110,6 +114,7 @@ class Sweep:
 
     def shard(self, number: int, count: int) -> range:
         """Indices of the ``number``-th (from 1) of ``count`` parts, as ``rocking sweep --shard``."""
+        number, count = whole("number", number), whole("count", count)
         if not 1 <= number <= count:
             raise ValueError(f"there is no part {number} of {count}")
         return range(len(self) * (number - 1) // count, len(self) * number // count)
