@@ -357,12 +357,12 @@ def records(
     SceneError
         For a folder without records, a record without the component, a file that cannot be read; ``MissingFileError`` where there is no folder.
     """
-    for name, value in (("component", component), ("units", units)):
-        if value is not None:
-            text(name, value)
-    for name, value in (("vertical", vertical), ("lenient", lenient)):
-        if value is not None:
-            flag(name, value)
+    for name, words in (("component", component), ("units", units)):
+        if words is not None:
+            text(name, words)
+    for name, choice in (("vertical", vertical), ("lenient", lenient)):
+        if choice is not None:
+            flag(name, choice)
     optional("dt", dt)
     path = os.path.abspath(os.fsdecode(folder))
     if not os.path.isdir(path):

@@ -314,7 +314,7 @@ class Run:
 
         names = {"theta": "rad", "omega": "rad/s", "slide": "m", "gap": "m"}
         known = {name: values for name in names if (values := getattr(self, name)) is not None}
-        variables = {name: (("t", "block"), values, {"units": names[name]}) for name, values in known.items()}
+        variables: dict[str, Any] = {name: (("t", "block"), values, {"units": names[name]}) for name, values in known.items()}
         ground = {"ground": (("t", "direction"), self.ground, {"units": "m/s²"})}
         if self.place is not None and self.velocity is not None and self.force is not None:
             variables["place"] = (("t", "block", "direction"), self.place, {"units": "m"})
