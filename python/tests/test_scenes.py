@@ -324,3 +324,13 @@ def test_a_column_may_be_replaced_by_blocks():
     assert len(scene.replace(column=[rk.Block(width=1, height=2)] * 2).column) == 2
     with pytest.raises(ValueError, match="Record.scaled"):
         scene.replace(horizontal=rk.Record.synthetic(1)).replace(keys={"excitation.horizontal.pga_g": 0.2})
+
+
+def test_errors_beside_a_record_in_memory_name_the_line_of_the_text():
+    """The lines were those of a text without the record."""
+    column, record = rk.Column.prisms(1, half_width=0.4, half_height=1.6), rk.Record.synthetic(1)
+    for arguments, key in (({"eta": 1.5}, "eta = 0.9"), ({"t_end": -1.0, "eta": 0.9}, "t_end = 3.0")):
+        with pytest.raises(rk.SceneError) as refused:
+            rk.Scene(column, record, **arguments)
+        good = {**arguments, **({"eta": 0.9} if "eta = " in key else {"t_end": 3.0})}
+        assert rk.Scene(column, record, **good).toml.splitlines()[refused.value.line - 1] == key

@@ -261,6 +261,10 @@ class Record:
     def _scene_keys(self) -> dict[str, Any]:
         return {"kind": "record", "accel": self.accel.tolist(), "dt": self.dt, "start": self.start}
 
+    def _short_keys(self) -> dict[str, Any]:
+        """The keys with two samples only."""
+        return {"kind": "record", "accel": [0.0, 0.0], "dt": self.dt, "start": self.start}
+
     def __getstate__(self) -> bytes:
         return self._record.state()
 

@@ -13,6 +13,7 @@ import pandas as pd
 
 from . import _rocking
 from ._arguments import number
+from ._errors import SceneError
 from ._keys import copied
 from ._motion import Motion, MotionLike, checked
 from ._record import Array, Record, StudyRecord
@@ -310,7 +311,14 @@ class Scene:
                     others = {name: motion for name, motion in motions.items() if not isinstance(motion, Record)}
                     shown = {**keys, "excitation": others or None}
             horizontal, vertical = (None if record is None else record._record for record in records)
-            native = _rocking.Scene.from_keys(shown, file, horizontal, vertical)
+            try:
+                native = _rocking.Scene.from_keys(shown, file, horizontal, vertical)
+            except SceneError:
+                if any(records):
+                    # Lines of errors are those of the whole text, in which each record takes as many as a record of two samples.
+                    short = {name: motion._short_keys() if isinstance(motion, Record) else motion for name, motion in (motions or {}).items()}
+                    _rocking.Scene.from_keys({**keys, "excitation": short}, file, None, None)
+                raise
         self._compiled = native
 
     @classmethod
