@@ -51,6 +51,9 @@ pub enum Failure {
     /// No row of a sweep or study has a result: the table, its number of rows, and the first error.
     #[error("{}: none of the {} point(s) has a result; the first says: {}", .0.display(), .1, .2)]
     NoResult(PathBuf, usize, String),
+    /// No scene of a sweep is valid: the sweep, the number of scenes read, and the first error.
+    #[error("{}: none of the {} scene(s) of its points that were read is valid; {}", .0.display(), .1, .2)]
+    NoScene(PathBuf, usize, String),
     /// A table cannot be joined with the other shards: the table, and the reason.
     #[error("{}: {}; give the tables of all shards of one sweep", .0.display(), .1)]
     Shards(PathBuf, String),

@@ -95,6 +95,11 @@ pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
         columns: sweep::columns(&sweep)?.into_iter().map(|column| column.name).collect(),
         scenes: ScenesRead::of(&sweep),
     };
+    if let ScenesRead { read, refused, first_refusal: Some(first), .. } = &findings.scenes
+        && read == refused
+    {
+        return Err(Failure::NoScene(path.into(), *read, first.clone()));
+    }
     warn_of_some(&findings.scenes.warnings);
     if as_json {
         return json(&findings);
