@@ -1,4 +1,4 @@
-//! The table of a sweep as a file: CSV or Parquet.
+//! The table of a sweep or a study as a file: CSV or Parquet.
 //!
 //! Both hold the same: a blank cell of CSV is a null of Parquet, a number has the same bits. Parquet comes with the feature
 //! `parquet` of this crate; without it, a table whose name ends in `.parquet` is refused.

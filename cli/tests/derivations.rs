@@ -6,7 +6,22 @@ use crate::common::{Folder, assert_has};
 fn derivations_are_printed_as_text_as_code_and_as_latex() {
     let folder = Folder::new();
     let text = folder.succeeds("derive --blocks 3 --mode 1.5");
-    assert_has(&text, &["mode 1.5", "(+,0,0)", "T = ", "V = ", "M_11 = ", "Equations of motion", "7 flops"]);
+    assert_has(&text, &["mode 1.5", "(+,0,0)", "T = ", "V = ", "M_1_1 = ", "Equations of motion", "7 flops"]);
+    assert_has(
+        &text,
+        &["Blocks 1, 2 and 3 are link 1, turned by theta_1", "clockwise positive", "rectangles and stand aligned"],
+    );
+    // As below the figure of states, with its minus sign.
+    let sliding = folder.succeeds("derive --blocks 2 --mode (−,+>u)");
+    assert_has(
+        &sliding,
+        &["pivot_1 = -c_1, sticks", "pivot_2 = top_half_width_1, u_2 slides to the right along the upper face"],
+    );
+    let latex = folder.succeeds("derive --blocks 2 --mode (+>,f) --format latex");
+    assert_has(
+        &latex,
+        &["$p_{1} = b_{1}^{\\mathrm{bot}}$", "$(x^{f}_{2}, y^{f}_{2})$", "interfaces that stick stand aligned"],
+    );
     let code = folder.succeeds("derive --blocks 2 --mode 1.1 --format rust");
     assert_has(&code, &["impl<S: Scalar> StepProgram<S> for Dof2", "fn scene_constants"]);
     let latex = folder.succeeds("derive --blocks 3 --mode 1.5 --format latex");

@@ -227,6 +227,7 @@ mod tests {
                 assert_eq!(Joints::parse(&joints.to_string()), Ok(joints));
             }
         }
+        assert_eq!(Joints::parse("(−,−<)"), Joints::parse("(-,-<)"));
         assert_eq!(Joints::parse("(0,-<u)").map(|joints| joints.to_string()).as_deref(), Ok("(0,-<u)"));
     }
 

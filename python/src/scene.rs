@@ -90,11 +90,9 @@ impl Scene {
             excitation.horizontal = horizontal.map(motion).or(excitation.horizontal.take());
             excitation.vertical = vertical.map(motion).or(excitation.vertical.take());
             // The end of a run that is not given follows from the ground motion, which the text does not have.
-            let end = match keys.get_item("solver")? {
-                Some(solver) => solver.contains("t_end")?,
-                None => false,
-            };
-            if let Some(t_end) = scene.end_of_free_swing().filter(|_| !end) {
+            let solver = keys.get_item("solver")?.filter(|solver| !solver.is_none());
+            let end = solver.and_then(|solver| solver.get_item("t_end").ok()).filter(|end| !end.is_none());
+            if let Some(t_end) = scene.end_of_free_swing().filter(|_| end.is_none()) {
                 scene.options.t_end = t_end;
             }
             scene.check().map_err(|errors| error::faults(py, &file, &errors))?;
@@ -124,7 +122,8 @@ impl Scene {
         } else {
             let mut scene = (*self.scene).clone();
             scene.options.wanted = wanted;
-            scene.options.record_forces = forces;
+            // Scenes of studies leave forces out.
+            scene.options.record_forces &= forces;
             if !rows {
                 (scene.output_dt, scene.output_times) = (None, Vec::new());
             }

@@ -203,7 +203,7 @@ impl Ida {
 fn run_error(py: Python<'_>, failed: &RunError) -> PyErr {
     match failed {
         RunError::Record(refused) => error::record(py, "", refused),
-        RunError::Scene(errors) => error::faults(py, "<study>".as_ref(), errors),
+        RunError::Scene(errors) => error::faults(py, RUN.as_ref(), errors),
         RunError::Solve(failed) => error::solve(py, failed),
         _ => error::of_study(py, &failed.to_string()),
     }
@@ -226,6 +226,8 @@ pub struct Runs<'py> {
 }
 
 impl Runs<'_> {
+    /// The rows as observations.
+    ///
     /// # Errors
     /// `StudyError` with the row, counted as by `table.iloc`.
     fn observations(&self, py: Python<'_>) -> PyResult<Vec<Observation>> {

@@ -7,17 +7,17 @@ use crate::mechanics::kinematics::relative;
 use crate::numerics::per_block::{PerBlock, Size};
 use rocking_codegen::pattern::Interface;
 
-/// All patterns are compared up to this many interfaces at `φ = 0`, which have 2^9 choices of sides; beyond, a contact problem without
-/// admissible pattern is answered from those that the search has visited.
+/// Up to this many free interfaces, the nearest pattern is found by bounds over the 2^9 choices of their sides. Beyond, it is the nearest of those that
+/// the search has visited.
 const MOST_CHOICES: usize = 9;
 
 /// Tolerance of the conditions of contact. A resultant may lie outside a contact, and a normal force may be negative, by this share of the terms that
 /// cancel in them: a thousand times the rounding of a sum over a dozen blocks. If it were smaller, rounding would open contacts whose resultant
 /// passes through a corner. If it were larger, contacts would open visibly late.
-const CRITICAL_SHARE: f64 = 1e-12;
+const ROUNDING_SHARE: f64 = 1e-12;
 
 /// Share of the largest moment of a contact by which the moment may differ from it and be critical. An instant later it is clearly above or below.
-const VERGE: f64 = 1e-9;
+const CRITICAL_MOMENT_SHARE: f64 = 1e-9;
 
 /// A contact problem: which interfaces choose, and how a mechanism answers it.
 pub(super) struct ContactProblem<'i, 'a, S: Size, F> {
@@ -45,13 +45,13 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>> ContactProblem<'_, 'a, 
             Interface::Closed => {
                 let half_width = self.at_event.column.contact_half_width(interface);
                 let excess = contact.moment.abs() - half_width * contact.normal;
-                let is_outside = excess > CRITICAL_SHARE * half_width * contact.normal.abs()
-                    && excess > CRITICAL_SHARE * self.cancelling(answer, interface)[1];
+                let is_outside = excess > ROUNDING_SHARE * half_width * contact.normal.abs()
+                    && excess > ROUNDING_SHARE * self.cancelling(answer, interface)[1];
                 // The resultant acts at x = -M / N: a negative moment presses on the right corner.
                 is_outside.then_some(if contact.moment < 0.0 { Interface::Right } else { Interface::Left })
             }
             _ if !self.parts(state, answer, interface) => Some(Interface::Closed),
-            _ if contact.normal < 0.0 && -contact.normal > CRITICAL_SHARE * self.cancelling(answer, interface)[0] => {
+            _ if contact.normal < 0.0 && -contact.normal > ROUNDING_SHARE * self.cancelling(answer, interface)[0] => {
                 Some(Interface::Closed)
             }
             _ => None,
@@ -233,7 +233,7 @@ impl<S: Size> Candidate<'_, S> {
             Interface::Closed => {
                 let contact = answer.resultants[interface];
                 let moment = column.contact_half_width(interface) * contact.normal;
-                (contact.moment.abs() - moment).abs() <= VERGE * moment.abs()
+                (contact.moment.abs() - moment).abs() <= CRITICAL_MOMENT_SHARE * moment.abs()
             }
             _ => relative(&answer.angular, interface).abs() <= tolerance,
         }

@@ -138,8 +138,7 @@ impl Fragility {
         assert!(wrong.is_none(), "a level that is not above zero: {wrong:?}");
         let table = Table::of(runs, state);
         let counts = table.counts();
-        let levels_with_runs = counts.iter().filter(|count| count.runs + count.undecided > 0).count();
-        let layout = options.layout.unwrap_or(match table.runs.len() >= RUNS_OF_STRIPE * levels_with_runs {
+        let layout = options.layout.unwrap_or(match table.runs.len() >= RUNS_OF_STRIPE * counts.len() {
             true => Layout::Stripes,
             false => Layout::Cloud,
         });

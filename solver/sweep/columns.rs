@@ -17,7 +17,7 @@ pub enum Field {
     Outcome,
     /// Number of impacts, unless the run may have ended before some of them.
     Impacts,
-    /// Number of the block that overturned first, from 1.
+    /// The block that overturned first or lost its support, from 1.
     Block,
     /// Time of overturning `[s]`.
     OverturnedAt,
@@ -70,7 +70,7 @@ pub enum CellKind {
 /// The content of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cell<'r> {
-    /// The run did not get so far, or its column has fewer blocks than the largest one of the sweep.
+    /// Nothing to show: the run failed or does not have the quantity, or the cell belongs to the point.
     Blank,
     /// A whole number.
     Whole(usize),

@@ -10,9 +10,9 @@ use crate::scene_file::{Setting, Template};
 /// Largest number of samples; a larger one is taken for a mistake, as all values are kept in memory.
 const MOST_SAMPLES: u64 = 10_000_000;
 
-/// Samples and correlations, as a file has them.
+/// The section `[sampling]` of a sweep file.
 #[derive(Debug)]
-pub(super) struct Asked {
+pub(super) struct SamplingSection {
     sampling: Sampling,
     correlations: Vec<Correlation>,
 }
@@ -29,7 +29,7 @@ struct Correlation {
 pub(super) type Placed = (Axis, Place, Option<Distribution>);
 
 /// `[sampling]`: how many samples, by which method, from which seed.
-pub(super) fn sampling(root: &mut Table) -> Result<Option<Asked>, Wrong> {
+pub(super) fn sampling(root: &mut Table) -> Result<Option<SamplingSection>, Wrong> {
     let Some(mut table) = root.table("sampling")? else { return Ok(None) };
     let method = match table.text("method")? {
         None => SamplingMethod::default(),
@@ -48,7 +48,7 @@ pub(super) fn sampling(root: &mut Table) -> Result<Option<Asked>, Wrong> {
     let correlations = table.tables("correlations")?.unwrap_or_default().into_iter().map(correlation);
     let correlations = correlations.collect::<Result<Vec<_>, Wrong>>()?;
     table.close()?;
-    Ok(Some(Asked { sampling: Sampling { samples: samples as u32, method, seed }, correlations }))
+    Ok(Some(SamplingSection { sampling: Sampling { samples: samples as u32, method, seed }, correlations }))
 }
 
 /// `{ axes = ["eta", "amplitude_g"], value = 0.6 }`
@@ -109,15 +109,15 @@ fn copula(
 pub(super) fn sample(
     root: &Table,
     combine: Combine,
-    asked: Option<Asked>,
+    section: Option<SamplingSection>,
     axes: &mut [Placed],
     template: &Template,
 ) -> Result<Combine, Wrong> {
     axes.sort_by_key(|(.., distribution)| distribution.is_some());
     let first = axes.partition_point(|(.., distribution)| distribution.is_none());
-    let Asked { sampling, correlations } = match (asked, axes.get(first)) {
+    let SamplingSection { sampling, correlations } = match (section, axes.get(first)) {
         (None, None) => return Ok(combine),
-        (Some(asked), Some(_)) => asked,
+        (Some(section), Some(_)) => section,
         (None, Some((axis, place, _))) => {
             let (key, problem) =
                 (format!("axes.{}", axis.key), "it is a distribution, and nothing says how it is sampled".into());

@@ -7,6 +7,7 @@ use super::sheet::{Anchor, Figure, Key, Panel, Sheet};
 use super::spectrum::LEAST_RECORDS;
 use super::style::{self, Stroke};
 use crate::number::counted;
+use rocking::Fate;
 use rocking::studies::{FRACTILES, Observation, Stripe};
 use std::collections::BTreeMap;
 
@@ -50,7 +51,7 @@ pub fn ida(label: &str, runs: &[Observation], stripes: &[Stripe], paper: &Paper)
     by_record.values_mut().for_each(|runs| runs.sort_by(|a, b| a.level.total_cmp(&b.level)));
     let fractile_lines = if by_record.len() >= LEAST_RECORDS { &FRACTILE_LINES[..] } else { &[] };
     curves(&mut sheet, &panel, &by_record, stripes, fractile_lines);
-    let counted_levels = counts(&mut sheet, &panel, runs, stripes);
+    let counted_levels = counts(&mut sheet, &panel, stripes);
 
     let records = counted(by_record.len(), ["record", "records"]);
     let mut entries = vec![(Key::Line(RECORD), records.clone())];
@@ -143,12 +144,13 @@ fn draw(sheet: &mut Sheet, panel: &Panel, begins: Option<(f64, f64)>, points: &[
 }
 
 /// Counts of lost columns at each level, right of the panel. A count too close to the one written before is left out. Returns the number of counts.
-fn counts(sheet: &mut Sheet, panel: &Panel, runs: &[Observation], stripes: &[Stripe]) -> usize {
+fn counts(sheet: &mut Sheet, panel: &Panel, stripes: &[Stripe]) -> usize {
     let x = panel.frame.right() + 0.5 * COUNTS;
     sheet.words([x, TOP - 10.0], "lost", style::NOTE, Anchor::Middle);
     let (mut last, mut written) = (f64::INFINITY, 0);
     for stripe in stripes {
-        let lost = runs.iter().filter(|run| run.level == stripe.level && run.is_lost()).count();
+        let lost = Fate::ALL.iter().zip(stripe.fates).filter(|(fate, _)| fate.is_lost());
+        let lost: usize = lost.map(|(_, count)| count).sum();
         let y = panel.place([0.0, stripe.level])[1] + 4.5;
         if last - y >= LINE {
             let count = match stripe.runs - stripe.undecided() {
@@ -165,7 +167,6 @@ fn counts(sheet: &mut Sheet, panel: &Panel, runs: &[Observation], stripes: &[Str
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rocking::Fate;
     use rocking::studies::stripes;
 
     fn run(level: f64, fate: Option<Fate>) -> Observation {
@@ -183,6 +184,7 @@ mod tests {
             "Lost: 0 of 2 runs, counted per level on the right. Undecided and left out: 1 of 2 runs, which failed";
         assert!(figure.caption.contains(told), "{}", figure.caption);
     }
+
     #[test]
     fn the_caption_tells_of_levels_without_room_for_a_count() {
         let runs = [0.01, 0.02, 0.04, 5.0, 10.0].map(|level| run(level, Some(Fate::Rocks)));

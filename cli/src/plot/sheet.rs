@@ -23,7 +23,7 @@ pub const LEFT: f64 = 78.0;
 pub const RIGHT: f64 = 18.0;
 /// Smallest width of panels that stand beside one another `[px]`.
 const NARROWEST: f64 = 140.0;
-/// Pixels of a PNG per pixel of the sheet: 300 dots per inch where it is printed 18 cm wide.
+/// Pixels of a PNG per pixel of the sheet: 366 dots per inch on the usual 15 cm.
 const PNG_SCALE: f32 = 3.0;
 
 /// A sheet: what is drawn later lies on top.

@@ -50,10 +50,7 @@ impl Drawing {
     /// Drawing of a table with so many `rows`. With largest angles: curves, or a plane of two axes of numbers if there are too many curves.
     /// Without largest angles: a plane, or strips along one axis if there are not two axes of numbers or all axes change together.
     fn of(axes: &[Axis], rows: usize, with_peaks: bool) -> Result<Drawing, NoSpectrum> {
-        let plane = || {
-            let plane = Plane::of(axes)?;
-            plane.expects(rows).map(|()| Drawing::Plane(plane))
-        };
+        let plane = || Plane::of(axes, rows).map(Drawing::Plane);
         let family = Family::of(axes, rows, with_peaks);
         if with_peaks {
             return match family {
@@ -69,7 +66,10 @@ impl Drawing {
                 Err(NoSpectrum::ManyCurves { curves: family.titles.len(), most: family.most() })
             }
             (Err(NoSpectrum::FewAxes), Ok(family)) => Ok(Drawing::Strips(family)),
-            (Err(NoSpectrum::NoGrid { .. }), Ok(family)) if family.is_paired => Ok(Drawing::Strips(family)),
+            // Values that neither rise nor fall are samples of distributions, and say nothing over one of several axes.
+            (Err(NoSpectrum::NoGrid { .. }), Ok(family)) if family.is_paired && family.is_joined => {
+                Ok(Drawing::Strips(family))
+            }
             (Err(NoSpectrum::FewAxes), Err(error)) => Err(error),
             (plane, _) => plane,
         }

@@ -1,4 +1,4 @@
-//! Columns of the table of a sweep, and its rows as text.
+//! Columns of the table of a sweep or a study, and its rows as text.
 
 use csv::StringRecord;
 

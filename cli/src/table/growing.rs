@@ -1,4 +1,4 @@
-//! The table of a sweep while it is written: a sweep that was interrupted continues with the first missing row.
+//! The table of a sweep or a study while it is written: a sweep that was interrupted continues with the first missing row.
 //!
 //! Rows are appended in order to a hidden CSV file beside the table. The name of this file holds a fingerprint of all that decides the rows.
 //! A hidden file that is found is kept up to the first line that is not the line due. The complete hidden file is renamed to the table.

@@ -18,7 +18,7 @@ fn stem(linkage: &Linkage) -> String {
     format!("open_{}_of_{}", open.join("_"), linkage.blocks())
 }
 
-/// `link 1: blocks 1 and 2; link 2: block 3`
+/// `with the ground: block 1; link 1: blocks 2, 3`
 fn links(linkage: &Linkage) -> String {
     let of_block = linkage.link_of_block();
     let names = (0..=linkage.dof()).filter(|link| of_block.contains(link)).map(|link| {

@@ -31,7 +31,7 @@ pub struct Symbols {
     pub pivot: Vec<Expr>,
     /// Pivot offsets on the faces of the upper blocks `[m]`, length N: `pivot` less the slide where an interface slides, `pivot` elsewhere.
     pub pivot_above: Vec<Expr>,
-    /// Vector from the lower to the upper pivot of an interface in flight, in the axes of the ground `[m]`, length N; `None` in contact.
+    /// Vector from the middle of the lower face to the middle of the upper one at an interface in flight, in the axes of the ground `[m]`, length N; `None` in contact.
     pub apart: Vec<Option<Vector>>,
     /// Half-heights `h_i [m]` of rectangles, length N.
     pub half_height: Vec<Expr>,

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import matplotlib.pyplot as plt
 import numpy as np
 import numpy.typing as npt
+import pandas as pd
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -69,8 +70,7 @@ def study(drawn: "Study", ax: "Axes | None" = None) -> "Axes":
     right = max(1.0, float(np.nanmax(np.where(lost, np.nan, demand), initial=0.0))) * 1.1
     demand = np.where(lost, right, demand)
     sizes = np.array(levels)
-    for label in dict.fromkeys(labels):
-        own = np.flatnonzero(np.array(labels) == label)
+    for own in pd.Series(labels).groupby(labels, sort=False).indices.values():
         own = own[np.argsort(sizes[own])]
         ax.plot(demand[own], sizes[own], lw=0.8, color="0.7", marker=".", ms=3)
     for share, style in ((16, ":"), (50, "-"), (84, "--")):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar, overload
 
@@ -310,9 +311,8 @@ class Records(Sequence[StudyRecord]):
             if not isinstance(record, StudyRecord):
                 raise TypeError(f"record {number} is a {type(record).__name__}; give a Record, as Record(samples, dt=0.01)")
             self._records.append(record)
-        names = [record.name for record in self._records]
-        for name in names:
-            if names.count(name) > 1:
+        for name, count in Counter(record.name for record in self._records).items():
+            if count > 1:
                 raise ValueError(f"record {name} is there twice; give each record a name of its own with Record.named")
 
     @overload

@@ -13,7 +13,8 @@ use crate::run::error::SolveError;
 use crate::run::problem::Problem;
 use std::ops::ControlFlow;
 
-/// Longest step, in radians of the ground motion: guards of forces are sampled in a step, and no coordinate may feel what they follow.
+/// Longest step, as the phase of the ground's oscillation `[rad]`. Guards of forces are only sampled in a step, and the control of errors does not see ground
+/// motion that moves no coordinate.
 const LONGEST_TURN: f64 = 2.0;
 
 /// Steps of one explicit method.
@@ -95,7 +96,7 @@ impl<'p> Steps<'p> for ExplicitSteps {
         &self.interpolant
     }
 
-    /// A gap that has just opened, or a slide that has just begun.
+    /// Guards that may start from zero: closings, landings, stops of slides, ends of faces.
     fn may_be_unresolved(guard: Guard) -> bool {
         guard.may_start_from_zero()
     }

@@ -153,7 +153,8 @@ impl PendingTransition<'_> {
         }
     }
 
-    /// Coinciding corners that slide part if their interface has a gap; otherwise they go on along the face that carries them an instant later.
+    /// Corners that coincide and slide: with a gap of angles the interface becomes free. Without one the corner goes on along the face that carries it an
+    /// instant later.
     fn part_coinciding_corners(&mut self) {
         for interface in 0..self.now.joints.len() {
             let Joint::Corner(side, _, Slip::Slides(direction)) = self.now.joints[interface] else { continue };

@@ -44,10 +44,10 @@ const AT_ONCE: f64 = 1e-12;
 /// Hops of the least height whose time counts as one instant as well: faster events without end are a circle of states of which none lasts.
 const HOPS_AT_ONCE: f64 = 3.0;
 
-/// Events in one instant, per block and one more, beyond which a run cannot go on.
+/// Events in one instant beyond which a run cannot go on, times `N + 1`.
 const MOST_EVENTS_AT_ONCE: usize = 64;
 
-/// Events in one instant, per block and one more, after which contact laws are applied with the ground's acceleration of a little later. Where all
+/// Events in one instant, times `N + 1`, after which contact laws are applied with the ground's acceleration of a little later. Where all
 /// forces vanish, as where vertical motion lifts a column off, rounding decides between states, and none of them lasts.
 const EVENTS_BEFORE_LOOKAHEAD: usize = 1;
 

@@ -182,7 +182,6 @@ impl<'p> Mover<'p> {
                 ControlFlow::Continue(h) => h,
                 ControlFlow::Break(ended) => break ended,
             };
-            self.work.steps += 1;
             let shortest = SHORTEST_SHARE * method.suggested();
             let end = {
                 let output = method.output(&mut smooth, &start, h);
@@ -190,11 +189,13 @@ impl<'p> Mover<'p> {
                 let first = step.first_of(&list);
                 let is_unresolved = first.is_some_and(|(s, guard)| s == 0.0 && S::may_be_unresolved(guard));
                 if is_unresolved && h > shortest {
+                    self.work.rejected += 1;
                     longest = SHORTER_FOR_UNRESOLVED * h;
                     continue;
                 }
                 step.record(first, at.segment, recorder)
             };
+            self.work.steps += 1;
             longest = f64::INFINITY;
             at.t = end.t;
             if let Some(guard) = end.guard {

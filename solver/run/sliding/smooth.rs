@@ -20,8 +20,8 @@ use std::cell::OnceCell;
 /// Forces and accelerations beyond which a motion jams, as multiples of what weight, ground and rates account for.
 pub const FACTOR_OF_JAM: f64 = 1e6;
 
-/// Forces beyond which a motion jams that no step can follow any more, as multiples of the same. Rounding ends steps that follow forces to
-/// infinity early, in one column of unequal blocks at 560; if this were smaller, steps that fail for another reason would be taken for a jam.
+/// Forces beyond this multiple of the same count as a jam where no step can be taken. Rounding ends steps that follow forces to infinity early, in one
+/// column of unequal blocks at 560. If this were smaller, steps that fail for another reason would be taken for a jam.
 const FACTOR_WITHOUT_STEP: f64 = 1e2;
 
 /// Generated equations of a set of states.

@@ -41,7 +41,7 @@ pub trait Steps<'p> {
     /// The dense output of the step just taken.
     fn output<'s>(&'s mut self, smooth: &mut Smooth<'p>, start: &StepStart, h: f64) -> Self::Output<'s>;
 
-    /// Whether a guard that is zero at the start of a step may be less than the error of so long a step.
+    /// Whether the error of a long step may hide that a guard leaves zero at its start. The step is then shortened.
     fn may_be_unresolved(guard: Guard) -> bool;
 
     /// Values and rates of the free coordinates at the end of the whole step.

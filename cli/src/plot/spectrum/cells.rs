@@ -4,6 +4,7 @@ use super::class::Class;
 use super::grid::share;
 use super::outline::layers;
 use super::place::Place;
+use crate::number::percent;
 use crate::plot::curve::{self, Frame};
 use crate::plot::sheet::{Key, Sheet};
 use crate::plot::style::{self, Stroke};
@@ -93,16 +94,5 @@ pub fn cells(sheet: &mut Sheet, place: &Place, cells: &[Class]) {
     }
     if !hatches.is_empty() {
         sheet.runs(&hatches, &HATCH);
-    }
-}
-
-/// A share in whole percent, small ones to a tenth.
-pub fn percent(share: f64) -> String {
-    let percent = 100.0 * share;
-    match percent {
-        0.0 => "0 %".into(),
-        _ if percent < 0.1 => "below 0.1 %".into(),
-        _ if percent < 1.0 => format!("{percent:.1} %"),
-        _ => format!("{percent:.0} %"),
     }
 }

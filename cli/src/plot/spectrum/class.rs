@@ -1,6 +1,6 @@
 //! Outcomes as figures distinguish them.
 
-/// The outcome of a point as the figure distinguishes it, from the least to the most violent.
+/// The outcome of a point as the figure distinguishes it, from the least to the most violent; points without a result last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Class {
     NoUplift,

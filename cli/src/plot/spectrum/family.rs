@@ -1,6 +1,6 @@
 //! How the rows of a table make curves: which axis runs to the right, which rows make one curve, and which rows are records of one curve.
 
-use super::points::{Axis, Points};
+use super::points::{Axis, Points, combinations, is_drawn};
 use super::refusal::{MOST_CURVES, NoSpectrum};
 use super::scale::{Scale, numbers, titles};
 use rocking::sweep::is_of_records;
@@ -55,8 +55,7 @@ impl Family {
         let varying = |place: &usize| axes[*place].1.len() > 1;
         let places: Vec<usize> = (0..axes.len()).filter(varying).collect();
         let of_numbers = |place: &usize| numbers(&axes[*place].1).is_some();
-        let is_grid = rows == axes.iter().map(|(_, values)| values.len()).product::<usize>();
-        if !is_grid {
+        if rows != combinations(axes) {
             return paired(axes, &places, rows);
         }
         let is_record = |place: &usize| is_of_records(&axes[*place].0);
@@ -72,7 +71,7 @@ impl Family {
         };
         let records: Vec<usize> =
             places.iter().copied().filter(|place| *place != x_place && is_record(place)).collect();
-        let count = records.iter().map(|place| axes[*place].1.len()).product();
+        let count = combinations(records.iter().map(|place| &axes[*place]));
         let with_fractiles = with_fractiles && count >= LEAST_RECORDS;
         let (x, positions) = scale(&axes[x_place])?;
         let role = |place: usize| match axes[place].1.len() {
@@ -135,8 +134,7 @@ impl Family {
 fn paired(axes: &[Axis], places: &[usize], rows: usize) -> Result<Family, NoSpectrum> {
     let mut distinct = places.iter().copied().filter(|place| axes[*place].1.len() == rows).peekable();
     if distinct.peek().is_none() {
-        let points = axes.iter().map(|(_, values)| values.len()).product();
-        return Err(NoSpectrum::NoGrid { rows, points });
+        return Err(NoSpectrum::NoGrid { rows, points: combinations(axes) });
     }
     let x_place = distinct.find(|place| numbers(&axes[*place].1).is_some());
     let (x, positions) = match x_place {
@@ -156,8 +154,7 @@ fn paired(axes: &[Axis], places: &[usize], rows: usize) -> Result<Family, NoSpec
 /// The axis to the right, and the positions of its values. The frequency parameter `p` is drawn as its period `2π/p`.
 fn scale((key, values): &Axis) -> Result<(Scale, Vec<f64>), NoSpectrum> {
     let values = numbers(values).unwrap_or_default();
-    let is_drawn = |value: &f64| *value == 0.0 || (1e-100..=1e100).contains(&value.abs());
-    if !values.iter().all(is_drawn) || values.iter().all(|value| *value == values[0]) {
+    if !values.iter().copied().all(is_drawn) || values.iter().all(|value| *value == values[0]) {
         return Err(NoSpectrum::Extreme(key.clone()));
     }
     let (key, positions) = match key.as_str() {

@@ -4,7 +4,7 @@
 //! a panel. Of a row, only its class is kept.
 
 use super::class::Class;
-use super::points::{Axis, Points};
+use super::points::{Axis, Points, combinations, is_drawn};
 use super::refusal::{MOST_PANELS, NoSpectrum};
 use super::scale::{Scale, numbers, titles};
 
@@ -33,8 +33,8 @@ pub struct Plane {
 }
 
 impl Plane {
-    /// The plane of axes, each with its key and its values as a table has them.
-    pub fn of(axes: &[Axis]) -> Result<Plane, NoSpectrum> {
+    /// The plane of the axes of a table with so many `rows`, each with its key and its values as the table has them.
+    pub fn of(axes: &[Axis], rows: usize) -> Result<Plane, NoSpectrum> {
         let scale = |place: usize| {
             let (key, values) = &axes[place];
             let varying = numbers(values).filter(|numbers| numbers.iter().any(|number| *number != numbers[0]));
@@ -46,13 +46,17 @@ impl Plane {
         };
         let Some((x_place, x)) = x else { return Err(NoSpectrum::FewAxes) };
         drop(spanning);
-        let is_drawn = |value: &f64| *value == 0.0 || (1e-100..=1e100).contains(&value.abs());
-        if let Some(scale) = [&x, &y].into_iter().find(|scale| !scale.values.iter().all(is_drawn)) {
+        let is_extreme = |scale: &&Scale| !scale.values.iter().copied().all(is_drawn);
+        if let Some(scale) = [&x, &y].into_iter().find(is_extreme) {
             return Err(NoSpectrum::Extreme(scale.key.clone()));
         }
         let others = axes.iter().enumerate().filter(|(place, _)| ![x_place, y_place].contains(place));
         let others: Vec<&Axis> = others.map(|(_, axis)| axis).collect();
-        let panels = others.iter().map(|(_, values)| values.len()).product();
+        let panels = combinations(others.iter().copied());
+        let points = panels.saturating_mul(x.values.len() * y.values.len());
+        if rows != points {
+            return Err(NoSpectrum::NoGrid { rows, points });
+        }
         if panels > MOST_PANELS {
             return Err(NoSpectrum::ManyPanels(panels));
         }
@@ -70,17 +74,6 @@ impl Plane {
         });
         let spans = spans.collect();
         Ok(Plane { x, y, titles, spans })
-    }
-
-    /// Number of points of the whole grid.
-    fn points(&self) -> usize {
-        self.x.values.len() * self.y.values.len() * self.titles.len()
-    }
-
-    /// Checks that the grid has as many points as there are rows.
-    pub fn expects(&self, rows: usize) -> Result<(), NoSpectrum> {
-        let points = self.points();
-        if rows == points { Ok(()) } else { Err(NoSpectrum::NoGrid { rows, points }) }
     }
 
     /// Panel, column and row of a point. `numbers` has the index of the value of each axis.
@@ -178,19 +171,27 @@ mod tests {
     fn the_last_two_axes_of_numbers_that_vary_span_the_plane() {
         let (file, two) = (axis("file", &["r/a", "r/b"]), axis("eta", &["0.9", "0.8"]));
         let axes = [axis("blocks", &["1", "3"]), two, axis("rtol", &["1e-6"]), axis("omega_p", &["1", "2"]), file];
-        let plane = Plane::of(&axes).expect("two axes");
+        let plane = Plane::of(&axes, 16).expect("two axes");
         assert_eq!((plane.x.key.as_str(), plane.y.key.as_str()), ("eta", "omega_p"));
         assert_eq!(plane.titles, ["1 block, a", "1 block, b", "3 blocks, a", "3 blocks, b"]);
         assert_eq!(plane.place(&[1, 0, 0, 1, 1]), [3, 1, 1]);
-        assert_eq!(Plane::of(&axes[..2]).expect("two axes").titles, [""]);
-        assert_eq!(Plane::of(&axes[1..3]).err(), Some(NoSpectrum::FewAxes));
-        assert_eq!(Plane::of(&axes[2..3]).err(), Some(NoSpectrum::FewAxes));
+        assert_eq!(Plane::of(&axes[..2], 4).expect("two axes").titles, [""]);
+        assert_eq!(Plane::of(&axes[1..3], 2).err(), Some(NoSpectrum::FewAxes));
+        assert_eq!(Plane::of(&axes[2..3], 1).err(), Some(NoSpectrum::FewAxes));
     }
 
     #[test]
     fn more_panels_than_can_be_read_are_refused() {
         let many: Vec<String> = (0..17).map(|number| number.to_string()).collect();
         let axes = [("blocks".into(), many), axis("a", &["1", "2"]), axis("b", &["1", "2"])];
-        assert_eq!(Plane::of(&axes).err(), Some(NoSpectrum::ManyPanels(17)));
+        assert_eq!(Plane::of(&axes, 68).err(), Some(NoSpectrum::ManyPanels(17)));
+    }
+
+    /// Samples of eight distributions: the grid of their values has more points than numbers count, and far more than there are rows.
+    #[test]
+    fn samples_of_many_distributions_are_no_grid() {
+        let values: Vec<String> = (0..4096).map(|number| number.to_string()).collect();
+        let axes: Vec<Axis> = (0..8).map(|place| (format!("axis {place}"), values.clone())).collect();
+        assert_eq!(Plane::of(&axes, 4096).err(), Some(NoSpectrum::NoGrid { rows: 4096, points: usize::MAX }));
     }
 }

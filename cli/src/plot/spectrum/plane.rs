@@ -1,9 +1,10 @@
 //! Overturning spectra: the outcome over the plane of two axes of a sweep, and, for each value of the horizontal axis, the least value of the vertical
 //! one at which the column is lost.
 
-use super::cells::{cells, legend, percent};
+use super::cells::{cells, legend};
 use super::grid::{Grid, Plane, share_lost};
 use super::place::{GAP, NUMBERS, Place, TITLE, line};
+use crate::number::percent;
 use crate::plot::curve::{self, Frame, Point};
 use crate::plot::paper::Paper;
 use crate::plot::sheet::{Anchor, Figure, Key, LEFT, RIGHT, Sheet, shortened};

@@ -13,6 +13,16 @@ use std::path::Path;
 /// Key of an axis, and its different values as written in the table, in the order in which they first occur.
 pub type Axis = (String, Vec<String>);
 
+/// Number of combinations of the values of axes; the largest number if there are more.
+pub fn combinations<'a>(axes: impl IntoIterator<Item = &'a Axis>) -> usize {
+    axes.into_iter().fold(1, |count, (_, values)| count.saturating_mul(values.len()))
+}
+
+/// Whether a value of an axis can be drawn.
+pub fn is_drawn(value: f64) -> bool {
+    value == 0.0 || (1e-100..=1e100).contains(&value.abs())
+}
+
 /// A whole table.
 #[derive(Clone, Debug)]
 pub struct Points {

@@ -1,12 +1,13 @@
 //! Strips: what becomes of the column over one axis of a sweep, a strip for each combination of values of the other axes.
 
-use super::cells::{cells, legend, percent};
+use super::cells::{cells, legend};
 use super::class::Class;
 use super::family::Family;
 use super::grid::share_lost;
 use super::place::{GAP, NUMBERS, Place, TITLE};
 use super::points::Points;
 use super::scale::Scale;
+use crate::number::percent;
 use crate::plot::curve::Frame;
 use crate::plot::paper::Paper;
 use crate::plot::sheet::{Anchor, Figure, LEFT, RIGHT, Sheet, shortened};
