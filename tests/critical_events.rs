@@ -661,3 +661,31 @@ fn equal_blocks_below_one_that_rocks_open_in_one_event() {
         assert!(ends.iter().all(|other| distance(other, &ends[0]) < 1e-9), "{count}: {ends:?}");
     }
 }
+
+/// A motion that takes exactly the weight for an instant, and a pulse that reaches exactly the acceleration that opens the base, open nothing: rounding
+/// did, and separations followed.
+#[test]
+fn what_only_touches_the_threshold_opens_nothing() {
+    for count in [1, 4] {
+        let column = Column::equal_blocks(count, 0.25, 2.0, 1.0, 9.81).expect("valid");
+        let threshold = column.uplift_acceleration(0);
+        let (omega, start) = (4.0 * std::f64::consts::PI, 0.0);
+        let harmonic = Motion::SineBurst { amplitude: 9.81, omega, start, phase: 0.0, duration: 2.0 };
+        let pulse = |amplitude: f64| Motion::SinePulse { amplitude, omega: std::f64::consts::TAU, start: 0.0 };
+        every(|method, dynamics| {
+            let mut lifted = scene(column.clone(), &vec![0.0; count], method, dynamics);
+            lifted.options.t_end = 3.0;
+            let mut pushed = lifted.clone();
+            lifted.excitation.vertical = Some(harmonic.clone());
+            pushed.excitation.horizontal = Some(pulse(threshold));
+            for still in [lifted, pushed] {
+                let response = run(&still);
+                assert!(
+                    response.events.is_empty() && response.separations.is_empty(),
+                    "{count} {method:?}: {:?}",
+                    response.events
+                );
+            }
+        });
+    }
+}

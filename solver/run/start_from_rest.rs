@@ -18,6 +18,10 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// A guard has fallen to zero when it is this small against its own scale: sixteen roundings.
 const GUARD_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
+/// Share of its own scale by which a guard may be below zero and only touch it, as where a smooth pulse reaches exactly the acceleration that opens an
+/// interface: rounding would open it for an instant.
+const TOUCH: f64 = 1e-12;
+
 /// The least horizontal acceleration of the ground that opens some interface, if the ground does not move vertically `[m/s²]`.
 pub(super) fn least_uplift(column: &Column) -> f64 {
     let lever = |i: usize| column.contact_half_width(i) - column.centroid_offset(i).abs();
@@ -139,7 +143,10 @@ fn first_zero<G, I: Iterator<Item = (RestGuard, G)>>(
         let mut step = f64::INFINITY;
         for (guard, name) in guards() {
             match motion.step_to_zero(guard) {
-                Some(0.0) => return Some((t, name)),
+                Some(0.0) => match motion.time_past_touch(segment, guard) {
+                    Some(past) => step = step.min(past),
+                    None => return Some((t, name)),
+                },
                 Some(own) => step = step.min(own),
                 None => {}
             }
@@ -296,6 +303,22 @@ impl GroundWithBounds {
             + slack * acceleration_scale_at_rest(self.gravity, self.ground)
     }
 
+    /// For how long after this instant a guard that is zero here to rounding only touches zero `[s]`: it is above zero again by then, and has been below by
+    /// less than [`TOUCH`]. `None` if it falls below zero, and for guards with slack.
+    fn time_past_touch(&self, segment: &Segment, guard: RestGuard) -> Option<f64> {
+        let GroundWithBounds { t, ground, rates, bends, gravity } = self;
+        let RestGuard { arm: [holding, tipping], side, slack } = guard;
+        let slope = holding * rates[1] + f64::from(side.sign()) * tipping * rates[0];
+        let bend = holding * bends[1] + tipping * bends[0];
+        let depth = TOUCH * (holding * ground.gravity.abs().max(*gravity) + tipping * ground.x.abs());
+        if slack > 0.0 || slope * slope > 2.0 * bend * depth {
+            return None;
+        }
+        let past = 2.0 * (2.0 * depth / bend).sqrt();
+        let is_above = || GroundWithBounds::at(segment, *gravity, t + past).value(guard) > 0.0;
+        (t + past > *t && t + past < segment.end && is_above()).then_some(past)
+    }
+
     /// A time within which a guard does not fall below zero `[s]`. Zero if it falls below zero at this instant, or is below its slack. `None` if it never
     /// falls below zero.
     fn step_to_zero(&self, guard: RestGuard) -> Option<f64> {
@@ -380,5 +403,13 @@ mod tests {
         let crest = 0.2 * 9.81 / 0.8;
         assert_eq!(zero_of(&segment(crest * (1.0 - 1e-12)), arm, Interface::Left), None);
         assert!(zero_of(&segment(crest * (1.0 + 1e-9)), arm, Interface::Left).is_some());
+        for beside in -40..=40 {
+            let amplitude = crest * (1.0 + f64::from(beside) * f64::EPSILON);
+            assert_eq!(
+                zero_of(&segment(amplitude), arm, Interface::Left),
+                None,
+                "a touch, {beside} roundings beside the threshold"
+            );
+        }
     }
 }

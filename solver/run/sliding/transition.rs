@@ -66,7 +66,7 @@ pub fn transition(
     let (kind, hint) = match guard {
         Guard::Jam => {
             pending.jam();
-            (EventKind::Impact, None)
+            (if pending.changes.is_empty() { EventKind::Stick } else { EventKind::Impact }, None)
         }
         Guard::Overturn(block) => return pending.end(RunEnd::Overturned(block)),
         Guard::Collapse(interface) => return pending.collapsed(interface),
@@ -226,7 +226,10 @@ impl<'p> PendingTransition<'p> {
                 self.resolution.lowest_hop = 0.0;
                 return self.settle_accelerations(before, hint);
             }
-            None => self.resolve_jam()?,
+            None => match self.without_low_motion() {
+                Some(solution) => solution,
+                None => self.resolve_jam()?,
+            },
         };
         // Hops, bounces and slides lower than the resolution end at once.
         let mut stilled = Stilled::none(self.column().len());
@@ -308,6 +311,39 @@ impl<'p> PendingTransition<'p> {
         self.accelerations(&touch, None)
     }
 
+    /// The accelerations once hops and slides have ended that are lower than those that are followed, whatever acceleration ends them; `None` if there is no
+    /// such motion, or still no acceleration. In decaying chatter, directions that rounding has left may allow none.
+    fn without_low_motion(&mut self) -> Option<Solution> {
+        let least = self.problem.scene.options.stick_angle;
+        let scale = acceleration_scale(self.column(), &self.now, self.problem.ground_at(self.segment, self.t));
+        let mut joints = self.now.joints.clone();
+        for (interface, joint) in joints.iter_mut().enumerate() {
+            let Some(slip) = joint.slip() else { continue };
+            let is_low = |rate: f64, acceleration: f64, height: f64| rate * rate < 2.0 * acceleration * height;
+            let length = half_length(self.column(), interface, self.now.slide[interface]);
+            let stops = is_low(self.now.slide_rate[interface], scale, least * length);
+            let slip = if stops { Slip::Sticks } else { slip };
+            let closes = self.now.relative_angle(interface).abs() <= least
+                && is_low(self.now.relative_rate(interface), scale / self.resolution.size, least);
+            *joint = match *joint {
+                Joint::Corner(..) if closes => Joint::Closed(slip),
+                Joint::Corner(side, ..) => self.corner(interface, side, slip),
+                _ => Joint::Closed(slip),
+            };
+        }
+        if joints == self.now.joints {
+            return None;
+        }
+        let moving = self.now.clone();
+        self.hold(&joints);
+        let touch = self.join_touching();
+        let found = self.accelerations(&touch, None);
+        if found.is_none() {
+            self.now = moving;
+        }
+        found
+    }
+
     /// The accelerations after a jam. Velocities jump again where none follow, once for each contact at most.
     fn resolve_jam(&mut self) -> Result<Solution, RunEnd> {
         for _ in 0..self.column().len() {
@@ -324,10 +360,13 @@ impl<'p> PendingTransition<'p> {
         Err(RunEnd::Undetermined)
     }
 
-    /// No acceleration is admissible, or forces grow without bound (Painlevé): velocities jump as in an impact.
+    /// No acceleration is admissible, or forces grow without bound (Painlevé): velocities jump as in an impact. Where no impulses do, low hops and slides end.
     fn jam(&mut self) {
         self.is_jammed = true;
         self.stop = self.strike(&self.touching(), EventKind::Impact, &[]).err();
+        if self.stop.is_some() && self.without_low_motion().is_some() {
+            self.stop = None;
+        }
     }
 
     /// Ends a slide whose rate has come to zero: the state in which the contact sticks. A rate that reversed too little to be followed at once is above
