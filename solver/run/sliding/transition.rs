@@ -66,7 +66,14 @@ pub fn transition(
     let (kind, hint) = match guard {
         Guard::Jam => {
             pending.jam();
-            (if pending.changes.is_empty() { EventKind::Stick } else { EventKind::Impact }, None)
+            if pending.changes.is_empty() && pending.stop.is_none() {
+                // Low hops and slides have ended without impulses.
+                let ended =
+                    |interface: &usize| pending.now.joints[*interface] != before.configuration.joints[*interface];
+                let ended = (0..pending.now.joints.len()).filter(ended).collect();
+                pending.change(EventKind::Stick, ended, &before.configuration, None);
+            }
+            (EventKind::Impact, None)
         }
         Guard::Overturn(block) => return pending.end(RunEnd::Overturned(block)),
         Guard::Collapse(interface) => return pending.collapsed(interface),
@@ -321,14 +328,15 @@ impl<'p> PendingTransition<'p> {
             let Some(slip) = joint.slip() else { continue };
             let is_low = |rate: f64, acceleration: f64, height: f64| rate * rate < 2.0 * acceleration * height;
             let length = half_length(self.column(), interface, self.now.slide[interface]);
-            let stops = is_low(self.now.slide_rate[interface], scale, least * length);
+            let stops = slip != Slip::Sticks && is_low(self.now.slide_rate[interface], scale, least * length);
             let slip = if stops { Slip::Sticks } else { slip };
             let closes = self.now.relative_angle(interface).abs() <= least
                 && is_low(self.now.relative_rate(interface), scale / self.resolution.size, least);
             *joint = match *joint {
                 Joint::Corner(..) if closes => Joint::Closed(slip),
-                Joint::Corner(side, ..) => self.corner(interface, side, slip),
-                _ => Joint::Closed(slip),
+                Joint::Corner(side, ..) if stops => self.corner(interface, side, slip),
+                Joint::Closed(_) => Joint::Closed(slip),
+                kept => kept,
             };
         }
         if joints == self.now.joints {
