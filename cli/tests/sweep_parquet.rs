@@ -1,7 +1,7 @@
 //! Tables of sweeps as Parquet: the cells of CSV with types, the same bytes whatever the shards and interruptions.
 
 use crate::common::sweeps::{SWEEP, folder, kill_and_go_on, long, start};
-use crate::common::{Folder, Row};
+use crate::common::{Folder, Row, unbroken};
 use parquet::basic::{Compression, LogicalType, Repetition, Type};
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, FloatType, Int32Type};
 use parquet::file::properties::WriterProperties;
@@ -208,6 +208,25 @@ fn tables_of_other_programs_are_read() {
     assert_eq!(of("c.csv").replace("c-", "t-"), of("t.parquet"));
     assert_eq!(folder.read("c-fragility.csv"), folder.read("t-fragility.csv"));
     folder.refused("merge m.parquet t.parquet", &["t.parquet", "does not begin with the number of its point"]);
+}
+
+/// The reader of rows panics on some files whose end, which describes the columns, is damaged; that is an error like any other.
+#[test]
+fn damaged_tables_are_read_or_refused() {
+    let folder = folder(SWEEP);
+    let whole = table(&folder, "t.parquet", "");
+    let description = u32::from_le_bytes(whole[whole.len() - 8..][..4].try_into().expect("four bytes")) as usize;
+    let mut panics = 0;
+    for damage in (0..description).step_by(7) {
+        let mut bytes = whole.clone();
+        bytes[whole.len() - 8 - description + damage] = 149;
+        folder.write("x.parquet", &bytes);
+        let output = folder.rocking("plot x.parquet --out figures");
+        let message = unbroken(&String::from_utf8_lossy(&output.stderr));
+        assert!(matches!(output.status.code(), Some(0 | 2)) && !message.contains("panicked"), "{damage}: {message}");
+        panics += usize::from(message.contains("the file is damaged"));
+    }
+    assert!(panics > 0, "no damage makes the reader panic");
 }
 
 /// Hidden files of a folder: parts, and tables half made of them.

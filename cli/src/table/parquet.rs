@@ -18,6 +18,7 @@ use parquet::schema::types::{ColumnPath, Type};
 use rocking::scene_file::Setting;
 use std::fs::File;
 use std::io::{Error, ErrorKind, Result, Write};
+use std::panic::{self, AssertUnwindSafe};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -205,8 +206,24 @@ pub fn columns(path: &Path) -> Result<Vec<Column>> {
 pub fn rows(path: &Path) -> Result<Rows> {
     let file = open(path)?;
     let header = schema(&file).get_fields().iter().map(|field| field.name()).collect();
-    let rows = file.into_iter().map(|row| row.map_err(damage).and_then(|row| texts(&row)));
-    Ok(Rows { header, rows: Box::new(rows) })
+    let mut rows = Some(file.into_iter());
+    let next = move || {
+        let row = quietly(|| rows.as_mut()?.next()).unwrap_or_else(|| {
+            rows = None;
+            Some(Err(ParquetError::General("the file is damaged".into())))
+        });
+        row.map(|row| row.map_err(damage).and_then(|row| texts(&row)))
+    };
+    Ok(Rows { header, rows: Box::new(std::iter::from_fn(next)) })
+}
+
+/// What a function returns; `None` if it panics, as the reader of rows does on some damaged files. Nothing is printed then.
+fn quietly<T>(read: impl FnOnce() -> T) -> Option<T> {
+    let hook = panic::take_hook();
+    panic::set_hook(Box::new(|_| {}));
+    let found = panic::catch_unwind(AssertUnwindSafe(read));
+    panic::set_hook(hook);
+    found.ok()
 }
 
 fn open(path: &Path) -> Result<SerializedFileReader<File>> {

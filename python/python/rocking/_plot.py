@@ -70,8 +70,8 @@ def study(drawn: "Study", ax: "Axes | None" = None) -> "Axes":
     right = max(1.0, float(np.nanmax(np.where(lost, np.nan, demand), initial=0.0))) * 1.1
     demand = np.where(lost, right, demand)
     sizes = np.array(levels)
-    for own in pd.Series(labels).groupby(labels, sort=False).indices.values():
-        own = own[np.argsort(sizes[own])]
+    for places in pd.Series(labels).groupby(labels, sort=False).indices.values():
+        own = np.asarray(places)[np.argsort(sizes[places])]
         ax.plot(demand[own], sizes[own], lw=0.8, color="0.7", marker=".", ms=3)
     for share, style in ((16, ":"), (50, "-"), (84, "--")):
         fractile = np.minimum(stripes[f"peak_{share}"].to_numpy(), right)
