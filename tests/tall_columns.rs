@@ -103,16 +103,16 @@ fn shaken(drums: usize, seed: u64) -> Scene {
 #[test]
 #[ignore = "a measurement of some minutes: run with --ignored --nocapture"]
 fn columns_of_many_drums_without_an_answer() {
-    let mut too_many = Vec::new();
-    for (drums, columns, most) in [(8, 24, 0), (12, 24, 0), (20, 16, 1), (30, 8, 3)] {
+    let mut without = Vec::new();
+    for (drums, columns) in [(8, 24), (12, 24), (20, 16), (30, 8)] {
         let is_undetermined = |seed: &u64| {
             let run = simulate(&shaken(drums, *seed)).expect("a run");
             run.status == StopReason::Undetermined
         };
         let undetermined: Vec<u64> = (0..columns).filter(is_undetermined).collect();
         println!("{drums} drums: {} of {columns} without an answer: {undetermined:?}", undetermined.len());
-        too_many.extend((undetermined.len() > most).then_some(drums));
+        without.extend(undetermined.into_iter().map(|seed| (drums, seed)));
     }
     // All are counted first: the counts are what is measured.
-    assert!(too_many.is_empty(), "more than the best so far: columns of {too_many:?} drums");
+    assert!(without.is_empty(), "{without:?}");
 }
