@@ -14,7 +14,7 @@ pub struct Decision {
     /// No pattern was admissible: a block would fly.
     pub separation: bool,
     /// Besides the interfaces that are released, others are critical: their forces and accelerations are at the bounds between two states, and rounding has
-    /// chosen. What follows an instant later decides ([`super::open_an_instant_later`]).
+    /// chosen. What follows an instant later decides (`open_an_instant_later`).
     pub is_critical: bool,
     /// Lost share of the kinetic energy before, 0 to 1. Zero where rates do not jump or `ImpactLaw::is_recorded` is false.
     pub energy_lost: f64,

@@ -34,7 +34,7 @@ pub fn open(
 ///
 /// # Errors
 /// [`SingularMass`]
-pub fn open_an_instant_later(
+pub(crate) fn open_an_instant_later(
     column: &Column,
     pattern: &Pattern,
     theta: &[f64],

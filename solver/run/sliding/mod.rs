@@ -15,6 +15,7 @@
 mod contacts;
 mod explicit_steps;
 mod impact;
+mod low_motion;
 mod mover;
 mod recorder;
 mod series_steps;

@@ -1,16 +1,15 @@
 //! Transitions: from `x⁻` at the end of a stretch to `x⁺`, by the laws of contact with friction.
 
 use super::contacts::{self, Resolution, touching};
-use super::smooth::FACTOR_OF_JAM;
 use super::state::{RunEnd, SlidingEnded, SlidingState};
 use crate::column::Column;
 use crate::friction::chain::{Chain, Rates};
-use crate::friction::contact_problem::{Coefficients, Question, Touch, half_length};
+use crate::friction::contact_problem::{Coefficients, Question, Touch};
 use crate::friction::gaps::{self, Corner};
 use crate::friction::guards::Guard;
 use crate::friction::joint::{Configuration, Joint, Sign, Slip, face};
 use crate::friction::rows::Rows;
-use crate::friction::search::{Search, Solution, acceleration_scale};
+use crate::friction::search::{Search, Solution};
 use crate::mechanics::kinematics::{lower, relative};
 use crate::numerics::per_block::PerBlock;
 use crate::response::{EventKind, Impulse};
@@ -106,8 +105,8 @@ pub(super) struct PendingTransition<'p> {
     pub problem: &'p Problem<'p>,
     pub friction: &'p Coefficients,
     pub resolution: Resolution,
-    segment: usize,
-    t: f64,
+    pub(super) segment: usize,
+    pub(super) t: f64,
     /// Time by which the ground's acceleration is ahead `[s]`; not zero if the events of this instant go in a cycle.
     lookahead: f64,
     pub now: Configuration,
@@ -119,9 +118,9 @@ pub(super) struct PendingTransition<'p> {
 }
 
 /// Hops and slides, per interface, that have been ended in an instant because they are too low.
-struct Stilled {
-    hops: PerBlock<bool>,
-    slides: PerBlock<bool>,
+pub(super) struct Stilled {
+    pub hops: PerBlock<bool>,
+    pub slides: PerBlock<bool>,
 }
 
 impl Stilled {
@@ -242,9 +241,7 @@ impl<'p> PendingTransition<'p> {
         let mut stilled = Stilled::none(self.column().len());
         while let Some(held) = self.too_low(&solution, &mut stilled) {
             let moving = self.now.clone();
-            self.hold(&held);
-            let touch = self.join_touching();
-            let Some(without) = self.accelerations(&touch, None) else {
+            let Some(without) = self.held_accelerations(&held) else {
                 // Without these hops and slides no motion follows: they go on, unless they have done so in vain.
                 if self.lookahead == 0.0 {
                     self.now = moving;
@@ -297,61 +294,6 @@ impl<'p> PendingTransition<'p> {
         }
     }
 
-    /// The accelerations once slides stick that are as slow as contacts that stay; `None` if there is no such slide, or still no motion. A slide that is
-    /// left over from rounding gives a contact a direction in which no motion may follow.
-    fn without_slow_slides(&mut self) -> Option<Solution> {
-        let is_slow = |interface: usize| {
-            (f64::MIN_POSITIVE..=self.resolution.speed).contains(&self.now.slide_rate[interface].abs())
-        };
-        let slow: Vec<usize> = (0..self.now.joints.len()).filter(|interface| is_slow(*interface)).collect();
-        if slow.is_empty() {
-            return None;
-        }
-        let mut joints = self.now.joints.clone();
-        for interface in slow {
-            if let Some((_, stuck)) = self.with_slip(interface, Slip::Sticks) {
-                joints[interface] = stuck;
-            }
-        }
-        self.hold(&joints);
-        let touch = self.join_touching();
-        self.accelerations(&touch, None)
-    }
-
-    /// The accelerations once hops and slides have ended that are lower than those that are followed, whatever acceleration ends them; `None` if there is no
-    /// such motion, or still no acceleration. In decaying chatter, directions that rounding has left may allow none.
-    fn without_low_motion(&mut self) -> Option<Solution> {
-        let least = self.problem.scene.options.stick_angle;
-        let scale = acceleration_scale(self.column(), &self.now, self.problem.ground_at(self.segment, self.t));
-        let mut joints = self.now.joints.clone();
-        for (interface, joint) in joints.iter_mut().enumerate() {
-            let Some(slip) = joint.slip() else { continue };
-            let is_low = |rate: f64, acceleration: f64, height: f64| rate * rate < 2.0 * acceleration * height;
-            let length = half_length(self.column(), interface, self.now.slide[interface]);
-            let stops = slip != Slip::Sticks && is_low(self.now.slide_rate[interface], scale, least * length);
-            let slip = if stops { Slip::Sticks } else { slip };
-            let closes = self.now.relative_angle(interface).abs() <= least
-                && is_low(self.now.relative_rate(interface), scale / self.resolution.size, least);
-            *joint = match *joint {
-                Joint::Corner(..) if closes => Joint::Closed(slip),
-                Joint::Corner(side, ..) if stops => self.corner(interface, side, slip),
-                Joint::Closed(_) => Joint::Closed(slip),
-                kept => kept,
-            };
-        }
-        if joints == self.now.joints {
-            return None;
-        }
-        let moving = self.now.clone();
-        self.hold(&joints);
-        let touch = self.join_touching();
-        let found = self.accelerations(&touch, None);
-        if found.is_none() {
-            self.now = moving;
-        }
-        found
-    }
-
     /// The accelerations after a jam. Velocities jump again where none follow, once for each contact at most.
     fn resolve_jam(&mut self) -> Result<Solution, RunEnd> {
         for _ in 0..self.column().len() {
@@ -375,21 +317,6 @@ impl<'p> PendingTransition<'p> {
         if self.stop.is_some() && self.without_low_motion().is_some() {
             self.stop = None;
         }
-    }
-
-    /// Ends a slide whose rate has come to zero: the state in which the contact sticks. A rate that reversed too little to be followed at once is above
-    /// rounding when it is found; it ends as a slide that is too low does, momentum conserved: without it, its loss could add energy, again and again.
-    fn stop_slide(&mut self, interface: usize) -> Option<(usize, Joint)> {
-        let stuck = self.with_slip(interface, Slip::Sticks);
-        if let Some((_, joint)) = stuck.filter(|_| self.now.slide_rate[interface].abs() > self.resolution.speed) {
-            let (mut joints, sliding) = (self.now.joints.clone(), self.now.joints[interface]);
-            joints[interface] = joint;
-            self.hold(&joints);
-            // Accelerations decide whether it sticks.
-            self.now.joints[interface] = sliding;
-        }
-        self.now.slide_rate[interface] = 0.0;
-        stuck
     }
 
     pub fn touching(&self) -> Vec<Touch> {
@@ -457,6 +384,13 @@ impl<'p> PendingTransition<'p> {
         Search::new(self.column(), &self.now, touch, self.friction, Question::Accelerations(ground))
     }
 
+    /// The accelerations of the motion that these states allow, momentum conserved.
+    pub(super) fn held_accelerations(&mut self, joints: &[Joint]) -> Option<Solution> {
+        self.hold(joints);
+        let touch = self.join_touching();
+        self.accelerations(&touch, None)
+    }
+
     fn accelerations(&self, touch: &[Touch], hint: Option<(usize, Joint)>) -> Option<Solution> {
         let search = self.search(touch);
         let mut first = search.first();
@@ -495,55 +429,13 @@ impl<'p> PendingTransition<'p> {
         Joint::Corner(side, face(self.column(), interface, side, self.now.slide[interface]), slip)
     }
 
-    fn with_slip(&self, interface: usize, slip: Slip) -> Option<(usize, Joint)> {
+    pub(super) fn with_slip(&self, interface: usize, slip: Slip) -> Option<(usize, Joint)> {
         let joint = match self.now.joints[interface] {
             Joint::Closed(_) => Joint::Closed(slip),
             Joint::Corner(side, ..) => self.corner(interface, side, slip),
             Joint::Free => return None,
         };
         Some((interface, joint))
-    }
-
-    /// The states in which hops and slides that would come back before they exceed the resolution are stilled; `None` if none is new. All hops and
-    /// slides of this instant are stilled together: one at a time, each would pass its momentum on to the others.
-    fn too_low(&self, solution: &Solution, stilled: &mut Stilled) -> Option<PerBlock<Joint>> {
-        let least = self.resolution.lowest_hop;
-        let ground = self.problem.ground_at(self.segment, self.t);
-        // Larger accelerations are those of blocks about to jam, which stop motions of any speed in no time: by impulses, not by the end of a hop.
-        let most = FACTOR_OF_JAM * acceleration_scale(self.column(), &self.now, ground);
-        let returns = |rate: f64, change: f64, least: f64, most: f64| {
-            rate != 0.0 && rate * change < 0.0 && rate * rate < 2.0 * change.abs().min(most) * least
-        };
-        let hops = |interface: usize| {
-            let turn = relative(&solution.answer.motion.omega, interface);
-            self.now.relative_angle(interface).abs() <= self.resolution.angle
-                && returns(self.now.relative_rate(interface), turn, least, most / self.resolution.size)
-        };
-        let stops = |interface: usize| {
-            let length = half_length(self.column(), interface, self.now.slide[interface]);
-            returns(self.now.slide_rate[interface], solution.answer.motion.slide[interface], least * length, most)
-        };
-        let mut is_new = false;
-        for (interface, joint) in solution.joints.iter().enumerate() {
-            let is_corner = joint.is_corner();
-            if is_corner && !stilled.hops[interface] && hops(interface) {
-                (stilled.hops[interface], is_new) = (true, true);
-            }
-            let is_sliding = joint.slip().is_some_and(|slip| slip != Slip::Sticks);
-            if is_sliding && !stilled.slides[interface] && !stilled.hops[interface] && stops(interface) {
-                (stilled.slides[interface], is_new) = (true, true);
-            }
-        }
-        let held = |(interface, &joint): (usize, &Joint)| {
-            let with = |slip: Slip| if stilled.slides[interface] { Slip::Sticks } else { slip };
-            match joint {
-                Joint::Corner(_, _, slip) if stilled.hops[interface] => Joint::Closed(with(slip)),
-                Joint::Corner(side, _, slip) if with(slip) != slip => self.corner(interface, side, with(slip)),
-                Joint::Closed(slip) => Joint::Closed(with(slip)),
-                joint => joint,
-            }
-        };
-        is_new.then(|| solution.joints.iter().enumerate().map(held).collect())
     }
 
     /// Projects the motion onto the motions that these states allow, momentum conserved. What touches and would be driven in by this is held as well,
