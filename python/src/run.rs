@@ -13,7 +13,7 @@ use rocking::json::Explicit;
 use rocking::pattern::Pattern;
 use rocking::run_folder::{Folder, Results, Run};
 use rocking::trust::{Band, Trust, Verdict};
-use rocking::{BlockState, Event, Sample, StopReason, Wanted};
+use rocking::{BlockState, Event, Sample, Wanted};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -215,11 +215,6 @@ impl Response {
         Ok(columns)
     }
 
-    #[getter]
-    fn rows_and_events(&self) -> (usize, usize) {
-        (self.samples().len(), self.response.events.len())
-    }
-
     /// Why the run ended, as in `summary.json`.
     #[getter]
     fn status(&self) -> String {
@@ -230,11 +225,6 @@ impl Response {
     #[getter]
     fn overturned(&self) -> bool {
         self.response.status.overturns()
-    }
-
-    #[getter]
-    fn collapsed(&self) -> bool {
-        self.response.status == StopReason::Collapsed
     }
 
     #[getter]

@@ -182,11 +182,6 @@ impl Scene {
     }
 
     #[getter]
-    fn gravity(&self) -> f64 {
-        self.scene.column.gravity()
-    }
-
-    #[getter]
     fn title(&self) -> &str {
         &self.scene.title
     }
@@ -194,11 +189,6 @@ impl Scene {
     #[getter]
     fn t_end(&self) -> f64 {
         self.scene.options.t_end
-    }
-
-    #[getter]
-    fn has_friction(&self) -> bool {
-        self.scene.friction.is_some()
     }
 
     #[getter]

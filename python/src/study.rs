@@ -116,11 +116,6 @@ impl Ida {
     }
 
     #[getter]
-    fn free_swing(&self) -> f64 {
-        self.ida.free_swing()
-    }
-
-    #[getter]
     fn records(&self) -> Vec<StudyRecord> {
         self.ida.records().iter().map(|record| StudyRecord { record: record.clone() }).collect()
     }
@@ -141,11 +136,6 @@ impl Ida {
         options.set_item("seed", seed)?;
         options.set_item("layout", layout.map(Layout::name))?;
         Ok(options)
-    }
-
-    #[getter]
-    fn base(&self) -> Scene {
-        Scene { scene: Arc::new(self.ida.scene().clone()), origin: Arc::new(Origin::default()) }
     }
 
     /// The scene of a run, with rows at this interval, or at these times, where they are given.
