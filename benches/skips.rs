@@ -168,7 +168,7 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-/// The same answer: what became of the column, and when.
+/// The same answer: outcome and time.
 fn check(name: &str, a: &Response, b: &Response) {
     assert_eq!(a.overturned_block, b.overturned_block, "{name}");
     assert_eq!(a.status.overturns(), b.status.overturns(), "{name}");

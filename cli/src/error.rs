@@ -122,7 +122,10 @@ pub enum Failure {
     Solve { scene: PathBuf, out: PathBuf, error: SolveError },
     /// Standard output cannot be written.
     #[error("standard output: {0}")]
-    Print(String),
+    StandardOutput(String),
+    /// The system gives no threads.
+    #[error("threads cannot be started: {0}; give fewer with --threads")]
+    Threads(String),
 }
 
 /// Remedy in the library's message on a folder that cannot be written; the command line adds its option to this text.
@@ -167,7 +170,14 @@ impl Failure {
 
     /// 2 for input that must be corrected, 1 for everything else.
     pub fn exit_code(&self) -> u8 {
-        if matches!(self, Failure::Solve { .. } | Failure::Print(_) | Failure::NoResult(..)) { 1 } else { 2 }
+        if matches!(
+            self,
+            Failure::Solve { .. } | Failure::StandardOutput(_) | Failure::Threads(_) | Failure::NoResult(..)
+        ) {
+            1
+        } else {
+            2
+        }
     }
 }
 

@@ -9,14 +9,15 @@ use std::io::Write as _;
 /// Prints text. A reader that has seen enough and closes the pipe is no failure.
 pub fn print(text: &str) -> Result<(), Failure> {
     match std::io::stdout().write_all(printable_lines(text).as_bytes()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure::Print(error.to_string())),
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure::StandardOutput(error.to_string())),
         _ => Ok(()),
     }
 }
 
 /// Prints a value as JSON, for scripts.
 pub fn json(value: &impl Serialize) -> Result<(), Failure> {
-    let text = serde_json::to_string_pretty(&Explicit(value)).map_err(|error| Failure::Print(error.to_string()))?;
+    let text =
+        serde_json::to_string_pretty(&Explicit(value)).map_err(|error| Failure::StandardOutput(error.to_string()))?;
     json_text(&text)
 }
 

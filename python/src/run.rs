@@ -12,7 +12,7 @@ use rocking::joints::Joints;
 use rocking::json::Explicit;
 use rocking::pattern::Pattern;
 use rocking::run_folder::{Folder, Results, Run};
-use rocking::trust::{Band, Trust, Verdict};
+use rocking::trust::{Band, Trust};
 use rocking::{BlockState, Event, Sample, Wanted};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -237,7 +237,7 @@ impl Response {
         (self.scene.options.wanted == Wanted::Everything).then_some(self.response.impacts)
     }
 
-    /// What became of the column, as in the table of a sweep.
+    /// Outcome of the run, as in the table of a sweep.
     #[getter]
     fn outcome(&self) -> &'static str {
         rocking::Fate::of(&self.response).name()
@@ -267,7 +267,7 @@ impl Response {
     /// Whether companions say that the verdict is not determined. A run that ends undetermined says so itself.
     #[getter]
     fn is_open(&self) -> bool {
-        self.trust.as_ref().is_some_and(|trust| !trust.determined && trust.verdict != Verdict::Undetermined)
+        self.trust.as_ref().is_some_and(Trust::is_open)
     }
 
     /// The text of `summary.json`.

@@ -12,8 +12,8 @@ use crate::numerics::per_block::{PerBlock, Size, for_size};
 use rocking_codegen::pattern::{Interface, Pattern};
 
 /// Finds the pattern that forces require (docs/book/model.md, section 4) at angles `theta` and rates `omega`. Every interface that is closed, or
-/// open with zero gap and zero gap rate, may change its state. `released` are interfaces whose resultants have just reached a corner, with the side of
-/// that corner, counted from zero: they open, unless they accelerate shut by more than a tolerance; then they are searched like the rest. The side is
+/// open with zero gap and zero gap rate, may change its state. `released` lists interfaces (from zero) whose resultants have just
+/// reached a corner, each with the side of that corner: they open, unless they accelerate shut by more than a tolerance; then they are searched like the rest. The side is
 /// right where the moment of the contact force is negative, left where it is positive. Without such interfaces, give `&[]`: the forces alone decide.
 ///
 /// # Errors

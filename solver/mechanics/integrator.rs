@@ -258,7 +258,7 @@ impl<D: Dynamics> Steps for ExplicitSteps<D> {
         if starts_at_zero {
             let (dof, h) = (self.start.as_slice().len() / 2, length);
             let (rate, acceleration) = (&self.start.as_slice()[dof..], &self.slope.as_slice()[dof..]);
-            polynomial.start_with(0.0, h * angles.of(rate), h * h * angles.of(acceleration));
+            polynomial.start_at_zero(h * angles.of(rate), h * h * angles.of(acceleration));
         }
         Track::Bernstein(polynomial)
     }

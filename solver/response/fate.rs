@@ -1,9 +1,9 @@
-//! What became of a column, in one word.
+//! The outcome of a run, in one word.
 
 use super::{Response, StopReason};
 use crate::names::named;
 
-/// What became of the column of a run.
+/// The outcome of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Fate {
@@ -35,7 +35,7 @@ named!(
 );
 
 impl Fate {
-    /// What became of the column of a run.
+    /// The outcome of a run.
     pub fn of(response: &Response) -> Fate {
         let rocked = || response.time_in_mode.iter().any(|(mode, time)| mode != "rest" && *time > 0.0);
         match (response.status, response.work.phases > 0) {

@@ -68,7 +68,7 @@ enum End {
     /// The block has landed.
     Landed,
     /// The next interval belongs to another stretch.
-    Over,
+    HandsOver,
 }
 
 impl Phase {
@@ -205,7 +205,7 @@ impl Walk<'_> {
         let end = loop {
             let span = &ground[segment];
             let h = span.end - t;
-            let Some(weights) = rocker.weights(span, t, h) else { break End::Over };
+            let Some(weights) = rocker.weights(span, t, h) else { break End::HandsOver };
             angle.rate = rate * (unit * h);
             let step = OneAngle::expand::<ORDER>(&weights, angle);
             let (end, per_second) = (step.end, 1.0 / h);
@@ -223,7 +223,7 @@ impl Walk<'_> {
             let largest = if out > out_end { out } else { out_end };
             let may_overturn = largest + angle.rate.abs() + step.change >= overturned;
             if may_overturn {
-                break End::Over;
+                break End::HandsOver;
             }
             needs_order |=
                 errors[0] > ERROR_FOR_LOWER_ORDER * allowed[0] || errors[1] > ERROR_FOR_LOWER_ORDER * allowed[1];
@@ -235,7 +235,7 @@ impl Walk<'_> {
             } else {
                 let track = step.track(sign, angle.theta);
                 match examine(&track, self.gap.start_roots, self.resolution, peak) {
-                    Touch::Grazes => break End::Over,
+                    Touch::Grazes => break End::HandsOver,
                     Touch::Lands(share, crest) => {
                         let [_, rate] = track.with_slope(share);
                         (landing, peak) = (Some([share, sign * rate]), crest);
@@ -259,7 +259,7 @@ impl Walk<'_> {
             let goes_on = next < ground.len() && !self.stops_at(&ground[next], t);
             segment += usize::from(goes_on);
             if !goes_on || self.intervals == MOST_INTERVALS {
-                break End::Over;
+                break End::HandsOver;
             }
         };
         self.state = WalkState { t, segment, omega, angle };
@@ -276,7 +276,7 @@ impl Walk<'_> {
 
 /// What the gap does in a step.
 enum Touch {
-    /// It stays open. The number is the peak so far or the largest magnitude of the angle in the step, whichever is larger `[rad]`.
+    /// It does not close: it stays open, or within rounding of zero from the start on. The number is the peak so far or the largest magnitude of the angle in the step, whichever is larger `[rad]`.
     Clears(f64),
     /// It closes at a share of the step, the first number. The second one is the peak as above, up to there `[rad]`.
     Lands(f64, f64),

@@ -1,4 +1,4 @@
-//! Contact forces within a panel: parabolas through their values at its start, middle and end.
+//! Contact forces within a panel, a part of a stretch over which they are parabolas: through their values at its start, middle and end.
 
 use crate::mechanics::dynamics::ContactForce;
 

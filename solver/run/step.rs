@@ -275,7 +275,7 @@ impl Phase {
         })
     }
 
-    /// The interfaces that close in the instant `t` in which `first` does.
+    /// The interfaces that close at `t`: `first`, and those whose gaps are there within rounding of closing.
     fn closing_with(&self, t: f64, first: Gap) -> PerBlock<usize> {
         let (dof, x) = (self.linkage.dof, self.integrator.end());
         let (resolution, instant) = (self.resolution(x), 4.0 * f64::EPSILON * t);

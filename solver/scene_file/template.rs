@@ -97,7 +97,7 @@ impl Template {
         self.root.has_table(name)
     }
 
-    /// Full name of a key. A name with a point is already full. Otherwise it is the only key of that name in the scene or, without one, the key
+    /// Full name of a key. A name with a dot is already full. Otherwise it is the only key of that name in the scene or, without one, the key
     /// in its usual table. `None` if several keys may be meant: the scene has several of that name, or it has the usual table and the only such
     /// key in another table (and no item of a list is asked for).
     pub fn full_name(&self, key: &str) -> Option<String> {

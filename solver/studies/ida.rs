@@ -96,7 +96,7 @@ pub enum RunError {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct IdaOutcome {
-    /// What became of the column.
+    /// The outcome of the run.
     pub fate: Fate,
     /// Number of impacts up to overturning, to the end, or to `horizon`.
     pub impacts: usize,

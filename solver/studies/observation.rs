@@ -12,7 +12,7 @@ pub struct Observation {
     pub record: String,
     /// Size of the ground motion in the measure of the study, above zero.
     pub level: f64,
-    /// What became of the column; `None` for a run that failed.
+    /// The outcome of the run; `None` for one that failed.
     pub fate: Option<Fate>,
     /// Whether an interface opened.
     pub has_uplift: bool,

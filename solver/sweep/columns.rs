@@ -13,7 +13,7 @@ pub enum Field {
     Index,
     /// Value of the axis with this index.
     Axis(usize),
-    /// What became of the column, or "error".
+    /// The outcome of the run, or "error".
     Outcome,
     /// Number of impacts, unless the run may have ended before some of them.
     Impacts,

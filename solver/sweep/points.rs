@@ -112,7 +112,7 @@ pub struct Sweep {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Outcome {
-    /// What became of the column.
+    /// The outcome of the run.
     pub fate: Fate,
     /// Number of impacts up to overturning, or to the end of the run. With [`Ask::Outcome`] and [`Ask::Overturns`] a run may end early: impacts after
     /// that are missing.

@@ -4,7 +4,7 @@
 //! scene ──> companions.rs   the scene at a tighter tolerance; excitation and sizes changed by 1e-9 and 1e-6
 //!       ──> history.rs      angles and slides of two runs side by side: until when they agree, by how much a change has grown
 //!       ──> band.rs         the smallest and the largest angle of all runs, over time
-//!       ──> verdict.rs      what became of the column in each run: stands, overturns, collapses, or nothing that is known
+//!       ──> verdict.rs      the outcome of each run: stands, overturns, collapses, or nothing that is known
 //!       ──> fold.rs         the smallest change of the shaking, among a few, that changes the verdict
 //! ```
 //!
@@ -263,6 +263,11 @@ fn certain_at(
 }
 
 impl Trust {
+    /// Whether companions show that the verdict is not determined. False for a run that ends undetermined: its outcome already says so.
+    pub fn is_open(&self) -> bool {
+        !self.determined && self.verdict != Verdict::Undetermined
+    }
+
     /// Whether all companions agree to the end of the run.
     pub fn reaches_the_end(&self) -> bool {
         self.companions.iter().all(|companion| companion.parts_at.is_none())

@@ -27,23 +27,8 @@ pub fn fragility(request: &arguments::Fragility) -> Result<(), Failure> {
         [] => DEFAULT_STATES.to_vec(),
         given => given.to_vec(),
     };
-    for state in &states {
-        let lacks = match state {
-            LimitState::Peak { .. } if peaks == 0 => {
-                Some("needs the columns peak_1, ...: run the sweep with ask = \"peaks\"".to_string())
-            }
-            LimitState::Peak { block: Some(block), .. } if *block > peaks => {
-                Some(format!("needs the column peak_{block}, and the columns of the table have {peaks} block(s)"))
-            }
-            LimitState::Slide { .. } if !has_slides => Some(
-                "needs the columns residual_slide_1, ...: run the sweep of a scene with friction with ask = \"slides\""
-                    .to_string(),
-            ),
-            _ => None,
-        };
-        if let Some(lacks) = lacks {
-            return Err(refused(format!("the state `{state}` {lacks}")));
-        }
+    if let Some((state, lacks)) = states.iter().find_map(|state| Some((state, lacking(state, peaks, has_slides)?))) {
+        return Err(refused(format!("the state `{state}` {lacks}")));
     }
     let mut options = FragilityOptions::default();
     (options.replicates, options.confidence, options.seed) =
@@ -69,6 +54,23 @@ pub fn fragility(request: &arguments::Fragility) -> Result<(), Failure> {
     if request.json { json(&conclusions) } else { print(&report) }
 }
 
+/// What a table lacks for a limit state, with the remedy: it has `peaks` columns of peaks, and perhaps columns of slides.
+fn lacking(state: &LimitState, peaks: usize, has_slides: bool) -> Option<String> {
+    match state {
+        LimitState::Peak { .. } if peaks == 0 => {
+            Some("needs the columns peak_1, ...: run the sweep with ask = \"peaks\"".into())
+        }
+        LimitState::Peak { block: Some(block), .. } if *block > peaks => {
+            Some(format!("needs the column peak_{block}, and the columns of the table have {peaks} block(s)"))
+        }
+        LimitState::Slide { .. } if !has_slides => Some(
+            "needs the columns residual_slide_1, ...: run the sweep of a scene with friction with ask = \"slides\""
+                .into(),
+        ),
+        _ => None,
+    }
+}
+
 /// Runs of a table.
 pub struct Runs {
     /// Name of the measure: the heading of its column, or the last part of that heading if only this part is a measure.
@@ -90,34 +92,14 @@ pub fn read(table: &Path, measure: Option<&str>, conditions: &[(String, String)]
     let found = open(table).map_err(at(Failure::Study, table))?;
     let columns = Columns::of(found.header.iter().map(String::from).collect(), measure).map_err(refused)?;
     let conditions = columns.conditions(conditions).map_err(refused)?;
-    // The records that have each value of a column that is neither the record nor the measure.
-    let mut values: Vec<BTreeMap<String, BTreeSet<String>>> = vec![BTreeMap::new(); columns.others.len()];
-    let mut records = BTreeSet::new();
-    let (mut runs, mut first_error, mut cut) = (Vec::new(), None, 0);
-    let mut seen = HashSet::new();
+    let mut pooling = Pooling::new(&columns);
+    let mut runs = Vec::new();
     for (number, row) in found.rows.enumerate() {
         let row = row.map_err(at(Failure::Study, table))?;
-        if !conditions.iter().all(|(place, value)| is_value(&row[*place], value)) {
-            continue;
+        if conditions.iter().all(|(place, value)| is_value(&row[*place], value)) {
+            let run = pooling.add(&row, number).and_then(|()| columns.observation(&row, number));
+            runs.push(run.map_err(|problem| refused(format!("row {}{problem}", number + 1)))?);
         }
-        // Studies with other records may be pooled: their runs have the same numbers.
-        let settings = || row.iter().take(columns.outcome).collect::<Vec<_>>().join(",");
-        if columns.has_index && !seen.insert(settings()) {
-            let problem = format!("row {}: the run stands in a row above as well; give each run once", number + 1);
-            return Err(refused(problem));
-        }
-        let record = columns.record_of(&row, number);
-        for (values, place) in values.iter_mut().zip(&columns.others) {
-            values.entry(row[*place].to_string()).or_insert_with(BTreeSet::new).insert(record.clone());
-        }
-        records.insert(record);
-        if let (ERROR, Some(error)) = (&row[columns.outcome], columns.error) {
-            first_error.get_or_insert_with(|| row[error].to_string());
-        }
-        // `True` where another program has written the table.
-        cut += usize::from(columns.truncated.is_some_and(|truncated| row[truncated].eq_ignore_ascii_case("true")));
-        let run = columns.observation(&row, number);
-        runs.push(run.map_err(|problem| refused(format!("row {}, {problem}", number + 1)))?);
     }
     if runs.is_empty() {
         let problem = match &conditions[..] {
@@ -126,24 +108,84 @@ pub fn read(table: &Path, measure: Option<&str>, conditions: &[(String, String)]
         };
         return Err(refused(problem.into()));
     }
-    // A value of its own for each record is a property of the record, such as its PGA.
-    let is_of_record = |values: &BTreeMap<String, BTreeSet<String>>| {
-        let is_of_one = |records: &BTreeSet<String>| records.len() == 1;
-        !columns.records.is_empty() && values.len() == records.len() && values.values().all(is_of_one)
-    };
-    let several = columns.others.iter().zip(&values).filter(|(_, values)| values.len() > 1 && !is_of_record(values));
-    let pooled = several.map(|(place, values)| {
-        let (name, count) = (&columns.names[*place], values.len());
-        format!("the rows of all {count} values of `{name}` make one curve; --where {name}=VALUE keeps those of one")
-    });
     let name = &columns.names[columns.level];
     let measure = if is_measure(name) || measure.is_some() { name.clone() } else { last_part(name) };
-    let mut warnings: Vec<String> = pooled.collect();
-    if cut > 0 {
-        warnings.push(format!("{cut} run(s) end before their ground motion, or with the energy to overturn (`{TRUNCATED}`), and count as standing"));
-    }
+    let (warnings, first_error) = (pooling.warnings(), pooling.first_error);
     let (peaks, has_slides) = (columns.peaks.len(), !columns.slides.is_empty());
     Ok(Runs { measure, runs, first_error, warnings, peaks, has_slides })
+}
+
+/// What is gathered of all rows that are read, beside their runs.
+struct Pooling<'c> {
+    columns: &'c Columns,
+    /// For each column that is neither the record nor the measure: the records that have each of its values.
+    values: Vec<BTreeMap<String, BTreeSet<String>>>,
+    records: BTreeSet<String>,
+    /// The settings of all rows, in a table that numbers its runs.
+    seen: HashSet<String>,
+    /// The first error in the table.
+    first_error: Option<String>,
+    /// Number of runs that end before their ground motion, or with the energy to overturn.
+    cut: usize,
+}
+
+impl Pooling<'_> {
+    fn new(columns: &Columns) -> Pooling<'_> {
+        Pooling {
+            columns,
+            values: vec![BTreeMap::new(); columns.others.len()],
+            records: BTreeSet::new(),
+            seen: HashSet::new(),
+            first_error: None,
+            cut: 0,
+        }
+    }
+
+    /// Adds a row, counted from zero. The error says, after the number of the row, that its run has been added before.
+    fn add(&mut self, row: &StringRecord, number: usize) -> Result<(), String> {
+        let columns = self.columns;
+        // Studies with other records may be pooled: their runs have the same numbers.
+        let settings = || row.iter().take(columns.outcome).collect::<Vec<_>>().join(",");
+        if columns.has_index && !self.seen.insert(settings()) {
+            return Err(": the run stands in a row above as well; give each run once".into());
+        }
+        let record = columns.record_of(row, number);
+        for (values, place) in self.values.iter_mut().zip(&columns.others) {
+            values.entry(row[*place].to_string()).or_default().insert(record.clone());
+        }
+        self.records.insert(record);
+        if let (ERROR, Some(error)) = (&row[columns.outcome], columns.error) {
+            self.first_error.get_or_insert_with(|| row[error].to_string());
+        }
+        // `True` where another program has written the table.
+        self.cut += usize::from(columns.truncated.is_some_and(|truncated| row[truncated].eq_ignore_ascii_case("true")));
+        Ok(())
+    }
+
+    /// Columns that are neither the record nor the measure, and whose values differ; runs that were cut.
+    fn warnings(&self) -> Vec<String> {
+        let columns = self.columns;
+        // A value of its own for each record is a property of the record, such as its PGA.
+        let is_of_record = |values: &BTreeMap<String, BTreeSet<String>>| {
+            let is_of_one = |records: &BTreeSet<String>| records.len() == 1;
+            !columns.records.is_empty() && values.len() == self.records.len() && values.values().all(is_of_one)
+        };
+        let several =
+            columns.others.iter().zip(&self.values).filter(|(_, values)| values.len() > 1 && !is_of_record(values));
+        let pooled = several.map(|(place, values)| {
+            let (name, count) = (&columns.names[*place], values.len());
+            format!(
+                "the rows of all {count} values of `{name}` make one curve; --where {name}=VALUE keeps those of one"
+            )
+        });
+        let cut = (self.cut > 0).then(|| {
+            format!(
+                "{} run(s) end before their ground motion, or with the energy to overturn (`{TRUNCATED}`), and count as standing",
+                self.cut
+            )
+        });
+        pooled.chain(cut).collect()
+    }
 }
 
 /// Columns before the outcome that are no axes.
@@ -238,10 +280,10 @@ impl Columns {
         }
     }
 
-    /// The run of a row, counted from zero. The error says what is wrong with a cell.
+    /// The run of a row, counted from zero. The error says what is wrong with a cell, after the number of the row.
     fn observation(&self, row: &StringRecord, number: usize) -> Result<Observation, String> {
         let wrong =
-            |place: usize, wanted: &str| format!("column `{}`: `{}` is not {wanted}", self.names[place], &row[place]);
+            |place: usize, wanted: &str| format!(", column `{}`: `{}` is not {wanted}", self.names[place], &row[place]);
         let level: Option<f64> = row[self.level].parse().ok();
         let level = level.filter(|level| level.is_finite() && *level > 0.0);
         // Columns of blocks that this row's column does not have are blank, at the end.
@@ -258,7 +300,7 @@ impl Columns {
             peaks: numbers(&self.peaks)?,
             residual_slides: numbers(&self.slides)?,
         };
-        Observation::try_from(cells).map_err(|refused| refused.to_string())
+        Observation::try_from(cells).map_err(|refused| format!(", {refused}"))
     }
 }
 

@@ -6,7 +6,7 @@ use crate::arguments;
 use crate::commands::fragility::{self, Conclusions};
 use crate::commands::plot::write;
 use crate::commands::spectrum::beside;
-use crate::commands::sweep::{OUTCOME, TIME, TableDigest, threads};
+use crate::commands::sweep::{OUTCOME, TIME, TableDigest, already_there, threads};
 use crate::error::{Failure, at};
 use crate::output;
 use crate::plot::{self, Figure, Paper};
@@ -35,9 +35,8 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     let stripes_file = beside(&out.with_extension("csv"), "stripes");
     let [curves_file, shares_file] = fragility::tables(out);
     let derived = [stripes_file.clone(), curves_file, shares_file];
-    let mut outputs = [vec![out.clone()], derived.to_vec()].concat();
     let pictures = request.plot.as_ref().map(|picture| [picture.clone(), beside(picture, "fragility")]);
-    outputs.extend(pictures.iter().flatten().cloned());
+    let outputs: Vec<PathBuf> = [out].into_iter().chain(&derived).chain(pictures.iter().flatten()).cloned().collect();
     output::check(&outputs, inputs)?;
     let target = output::target(out)?;
     let threads = threads(request.threads)?;
@@ -45,14 +44,7 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
         warn_of_some(&warnings(ida));
     }
     let columns = columns(ida);
-    let mut table = Growing::open(&target, &columns, digest(inputs)?.number(), 0..ida.len())?;
-    let resumed = table.next;
-    let bar = Progress::of_points(ida.len(), resumed, request.quiet || request.json);
-    let count = columns.len();
-    table.fill(ida.len(), &threads, &bar, || {
-        let mut run = ida.worker();
-        move |index| cells(ida, &run(index), count)
-    })?;
+    let (table, resumed) = filled(request, ida, digest(inputs)?, &target, &columns, &threads)?;
     // What was made of an earlier table of this name must not stand beside the new one.
     for table in &derived {
         output::remove(table, inputs)?;
@@ -60,15 +52,14 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     table.close(format, &columns)?;
 
     // What follows is made of the table, so that it is the same whether or not the study was interrupted.
-    let runs = fragility::read(out, None, &[])?.runs;
+    let fragility::Runs { runs, first_error, .. } = fragility::read(out, None, &[])?;
     let stripes = stripes(&runs);
     output::file(&stripes_file, stripe_table(ida, &stripes))?;
     let measure = ida.intensity().to_string();
     let conclusions = threads.install(|| Conclusions::of(&runs, &measure, states, options));
     let mut report = tally(ida, &stripes);
     report.push_str(&conclusions.text());
-    let resumed = if resumed > 0 { format!(" ({resumed} of them were there already)") } else { String::new() };
-    let _ = writeln!(report, "wrote {} row(s){resumed} to {}", ida.len(), shown(out));
+    let _ = writeln!(report, "wrote {} row(s){} to {}", ida.len(), already_there(resumed), shown(out));
     let _ = writeln!(report, "wrote {}", shown(&stripes_file));
     report.push_str(&conclusions.write(out)?);
     if let Some([picture, curves]) = &pictures {
@@ -90,10 +81,28 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     }
     let failed: usize = stripes.iter().map(|stripe| stripe.errors).sum();
     if failed == ida.len() {
-        let first = fragility::read(out, None, &[])?.first_error.unwrap_or_default();
-        return Err(Failure::NoResult(out.clone(), failed, first));
+        return Err(Failure::NoResult(out.clone(), failed, first_error.unwrap_or_default()));
     }
     Ok(())
+}
+
+/// The unfinished table with all its rows, and how many of them an interrupted study had left.
+fn filled(
+    request: &arguments::Ida,
+    ida: &Ida,
+    digest: TableDigest,
+    target: &Path,
+    columns: &[Column],
+    threads: &rayon::ThreadPool,
+) -> Result<(Growing, usize), Failure> {
+    let mut table = Growing::open(target, columns, digest.number(), 0..ida.len())?;
+    let resumed = table.next;
+    let bar = Progress::of_points(ida.len(), resumed, request.quiet || request.json);
+    table.fill(ida.len(), threads, &bar, || {
+        let mut run = ida.worker();
+        move |index| cells(ida, &run(index), columns.len())
+    })?;
+    Ok((table, resumed))
 }
 
 /// The warnings of the records of a study, each once.
@@ -231,7 +240,7 @@ fn stripe_table(ida: &Ida, stripes: &[Stripe]) -> String {
     text
 }
 
-/// How many runs, and what became of them.
+/// Number of runs, by outcome.
 fn tally(ida: &Ida, stripes: &[Stripe]) -> String {
     let (records, levels) = (ida.records().len(), ida.levels().len());
     let mut text = format!("{records} record(s) at {levels} level(s) of {}: ", ida.intensity().label());

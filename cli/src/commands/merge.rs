@@ -146,25 +146,7 @@ fn join(
         let outcome = outcome.ok_or_else(|| broken(path)(format!("it has no column `{OUTCOME}`")))?;
         for row in rows {
             let row = row.map_err(broken(path))?;
-            let point = index(&row, path)?;
-            if point != next as u64 {
-                let missing = match point.checked_sub(next as u64) {
-                    Some(1) => format!("; point {next} is missing: a table before it is not given, or not whole"),
-                    Some(_) => {
-                        let last = point - 1;
-                        format!("; points {next} to {last} are missing: a table before it is not given, or not whole")
-                    }
-                    None => String::new(),
-                };
-                return Err(broken(path)(format!("it has point {point} where {next} is due{missing}")));
-            }
-            if !is_whole(&row, outcome) {
-                return Err(broken(path)(format!("the row of point {point} is not whole")));
-            }
-            if let Some(expected) = expected.filter(|expected| !expected.has(&row, next)) {
-                let problem = format!("the row of point {point} is not one of {}", shown(expected.file));
-                return Err(broken(path)(problem));
-            }
+            check_row(&row, (next, outcome), expected, path)?;
             write(&row)?;
             next += 1;
         }
@@ -175,6 +157,36 @@ fn join(
         }
         _ => Ok(next),
     }
+}
+
+/// Refuses a row that is not that of the point `next`, has no result in the column `outcome`, or is not a row of the sweep expected.
+fn check_row(
+    row: &StringRecord,
+    (next, outcome): (usize, usize),
+    expected: Option<&ExpectedSweep>,
+    path: &Path,
+) -> Result<(), Failure> {
+    let point = index(row, path)?;
+    let problem = if point != next as u64 {
+        format!("it has point {point} where {next} is due{}", missing(point, next as u64))
+    } else if !is_whole(row, outcome) {
+        format!("the row of point {point} is not whole")
+    } else if let Some(expected) = expected.filter(|expected| !expected.has(row, next)) {
+        format!("the row of point {point} is not one of {}", shown(expected.file))
+    } else {
+        return Ok(());
+    };
+    Err(broken(path)(problem))
+}
+
+/// The points that are missing before `point`, where `next` is due, in words with the reason; nothing if the point has come before.
+fn missing(point: u64, next: u64) -> String {
+    let missing = match point.checked_sub(next) {
+        Some(1) => format!("point {next} is missing"),
+        Some(_) => format!("points {next} to {} are missing", point - 1),
+        None => return String::new(),
+    };
+    format!("; {missing}: a table before it is not given, or not whole")
 }
 
 /// Whether a row has an outcome, or an error and no outcome.

@@ -25,42 +25,21 @@ pub fn record(arguments: &arguments::Record, window: Option<Window>) -> Result<(
     let Some(path) = arguments.file.clone() else {
         return Err(Failure::Trim(arguments.trim.join(" "), "no record file is named".into()));
     };
+    if let Some(out) = arguments.out.as_ref().filter(|out| !matches!(Format::of(out), Ok(Format::Csv))) {
+        return Err(Failure::RecordIsCsv(out.clone()));
+    }
     let column = arguments.scene.as_deref().map(inputs::scene).transpose()?.map(|scene| scene.column);
     let options = options(arguments, column.as_ref());
     let gravity = options.gravity;
     let file = read(&path, &options).map_err(|problem| problem.at(&path))?;
-    let refused = |error: RecordError| Failure::Record(path.clone(), error);
     let mut description = Description::of(&path, &file, gravity);
-    let mut record = file.into_record().map_err(refused)?.named(path.display().to_string());
-    if let Some(Window { from, to }) = window {
-        let outside = |error| format!("{error} ({} s are in the file)", description.duration);
-        record = record.trimmed(from, to).map_err(|error| Failure::Trim(arguments.trim.join(" "), outside(error)))?;
-    }
-    if let Some(factor) = arguments.scale {
-        record = record.scaled(factor).map_err(refused)?;
-    }
-    if let Some(peak) = arguments.pga {
-        record = record.scaled_to_peak(peak * gravity).map_err(refused)?;
-    }
+    let record = file.into_record().map_err(|error| Failure::Record(path.clone(), error))?;
+    let record = record.named(path.display().to_string());
+    let record = trimmed(record, window, arguments, description.duration)?;
     let damping = arguments.damping.unwrap_or(DEFAULT_DAMPING);
-    if let Some((mut intensity, size)) = arguments.scale_to {
-        if let Measure::Sa { damping: own, .. } = &mut intensity.measure
-            && *own == DEFAULT_DAMPING
-        {
-            *own = damping;
-        }
-        let unit = match &column {
-            Some(column) => Some(intensity.unit_size(column)),
-            None => intensity.unit_size_without_column(gravity),
-        };
-        let unit = unit.ok_or_else(|| Failure::NoColumn(intensity.to_string()))?;
-        record = record.scaled_to(intensity.measure, size * unit, gravity).map_err(refused)?;
-    }
+    let record = scaled(record, arguments, column.as_ref(), damping, &path)?;
     description.measure(&record);
     description.measure_by(&record, &arguments.sa, damping, column.as_ref());
-    if let Some(out) = arguments.out.as_ref().filter(|out| !matches!(Format::of(out), Ok(Format::Csv))) {
-        return Err(Failure::RecordIsCsv(out.clone()));
-    }
     let outputs: Vec<PathBuf> = arguments.out.iter().chain(&arguments.plot).cloned().collect();
     let inputs: Vec<PathBuf> = std::iter::once(&path).chain(&arguments.scene).cloned().collect();
     output::check(&outputs, &inputs)?;
@@ -84,6 +63,48 @@ pub fn record(arguments: &arguments::Record, window: Option<Window>) -> Result<(
         let _ = writeln!(text, "wrote {}", shown(picture));
     }
     print(&text)
+}
+
+/// The part of a record in a window, if there is one; the file has `duration` seconds.
+fn trimmed(
+    record: Record,
+    window: Option<Window>,
+    arguments: &arguments::Record,
+    duration: f64,
+) -> Result<Record, Failure> {
+    let Some(Window { from, to }) = window else { return Ok(record) };
+    let outside = |error| Failure::Trim(arguments.trim.join(" "), format!("{error} ({duration} s are in the file)"));
+    record.trimmed(from, to).map_err(outside)
+}
+
+/// A record scaled as the options say: by a factor, to a PGA, to an intensity. Spectral accelerations that name no damping ratio take `damping`.
+fn scaled(
+    mut record: Record,
+    arguments: &arguments::Record,
+    column: Option<&Column>,
+    damping: f64,
+    path: &Path,
+) -> Result<Record, Failure> {
+    let refused = |error: RecordError| Failure::Record(path.into(), error);
+    let gravity = column.map_or(DEFAULT_GRAVITY, Column::gravity);
+    if let Some(factor) = arguments.scale {
+        record = record.scaled(factor).map_err(refused)?;
+    }
+    if let Some(peak) = arguments.pga {
+        record = record.scaled_to_peak(peak * gravity).map_err(refused)?;
+    }
+    let Some((mut intensity, size)) = arguments.scale_to else { return Ok(record) };
+    if let Measure::Sa { damping: own, .. } = &mut intensity.measure
+        && *own == DEFAULT_DAMPING
+    {
+        *own = damping;
+    }
+    let unit = match column {
+        Some(column) => Some(intensity.unit_size(column)),
+        None => intensity.unit_size_without_column(gravity),
+    };
+    let unit = unit.ok_or_else(|| Failure::NoColumn(intensity.to_string()))?;
+    record.scaled_to(intensity.measure, size * unit, gravity).map_err(refused)
 }
 
 /// The span that `--trim` keeps, from the first sample on `[s]`; `to` may be infinite.

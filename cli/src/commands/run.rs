@@ -16,7 +16,7 @@ use rocking::scene_file::Template;
 use rocking::{DynamicsSource, Response, Scene, StopReason, simulate_observed};
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Runs a scene and writes its results into a folder. Figures and report of an earlier run are removed from this folder.
@@ -29,17 +29,8 @@ pub fn run(request: &Run) -> Result<(), Failure> {
         scene.options.dynamics = DynamicsSource::Generic;
     }
     let folder = Folder::create(out)?;
-    let outdated: Vec<String> = NAMES
-        .iter()
-        .flat_map(|name| ["svg", "png", "pdf"].map(|end| format!("{name}.{end}")))
-        .chain([report::NAME.into()])
-        .collect();
-    let of_run = FILES.into_iter().chain([COMPANIONS]).map(String::from);
-    let touched: Vec<PathBuf> = of_run.chain(outdated.iter().cloned()).map(|name| out.join(name)).collect();
-    let figures = NAMES.iter().filter(|_| request.plots).map(|name| out.join(format!("{name}.svg")));
-    output::check_writable(figures.chain(request.report.then(|| out.join(report::NAME))))?;
-    let inputs: Vec<PathBuf> = template.records().into_iter().chain([path.clone()]).collect();
-    output::check_not_inputs(&inputs, touched)?;
+    let outdated = files_of_earlier_runs();
+    check_outputs(request, &template, &outdated)?;
     let bar = Progress::of_run(scene.options.t_end, request.quiet);
     let failed = |error| Failure::Solve { scene: path.clone(), out: out.clone(), error };
     let start = Instant::now();
@@ -63,22 +54,7 @@ pub fn run(request: &Run) -> Result<(), Failure> {
     if !request.quiet && !request.json {
         print(&account(&scene, &response, &followed))?;
     }
-    let mut written: Vec<String> = ["summary.json", "response.csv", "events.json"].map(String::from).to_vec();
-    if out.join(COMPANIONS).is_file() {
-        written.push(COMPANIONS.into());
-    }
-    if request.plots || request.report {
-        // Figures and page are made of the files, so that they are the same as those of `rocking plot` and `rocking report`.
-        let results = Results::read(out)?;
-        if request.plots {
-            written
-                .extend(plot::draw(&results, Picture::Svg, out, &Paper::default())?.into_iter().map(|(file, _)| file));
-        }
-        if request.report {
-            output::file(&out.join(report::NAME), crate::report::page(&results))?;
-            written.push(report::NAME.into());
-        }
-    }
+    let written = [names_of_results(out), drawn(request)?].concat();
     if request.quiet {
         return Ok(());
     }
@@ -86,6 +62,48 @@ pub fn run(request: &Run) -> Result<(), Failure> {
         return json_text(&folder.summary()?);
     }
     print(&format!("wrote {} to {}\n", written.join(", "), shown(out)))
+}
+
+/// Names of figures and report: those of an earlier run in the same folder show another run.
+fn files_of_earlier_runs() -> Vec<String> {
+    let figures = NAMES.iter().flat_map(|name| ["svg", "png", "pdf"].map(|end| format!("{name}.{end}")));
+    figures.chain([report::NAME.into()]).collect()
+}
+
+/// Refuses outputs that cannot be written, or that are inputs of the scene. Files that are `outdated` are removed.
+fn check_outputs(request: &Run, template: &Template, outdated: &[String]) -> Result<(), Failure> {
+    let out = &request.out;
+    let of_run = FILES.into_iter().chain([COMPANIONS]).map(String::from);
+    let touched: Vec<PathBuf> = of_run.chain(outdated.iter().cloned()).map(|name| out.join(name)).collect();
+    let figures = NAMES.iter().filter(|_| request.plots).map(|name| out.join(format!("{name}.svg")));
+    output::check_writable(figures.chain(request.report.then(|| out.join(report::NAME))))?;
+    let inputs: Vec<PathBuf> = template.records().into_iter().chain([request.scene.clone()]).collect();
+    output::check_not_inputs(&inputs, touched)
+}
+
+/// Names of the files of the run that are in the folder.
+fn names_of_results(folder: &Path) -> Vec<String> {
+    let companions = folder.join(COMPANIONS).is_file().then_some(COMPANIONS);
+    ["summary.json", "response.csv", "events.json"].into_iter().chain(companions).map(String::from).collect()
+}
+
+/// Draws the figures and writes the report that are asked for; returns their names. They are made of the files of the run, so that they are the same
+/// as those of `rocking plot` and `rocking report`.
+fn drawn(request: &Run) -> Result<Vec<String>, Failure> {
+    let out = &request.out;
+    if !request.plots && !request.report {
+        return Ok(Vec::new());
+    }
+    let results = Results::read(out)?;
+    let mut written = Vec::new();
+    if request.plots {
+        written.extend(plot::draw(&results, Picture::Svg, out, &Paper::default())?.into_iter().map(|(file, _)| file));
+    }
+    if request.report {
+        output::file(&out.join(report::NAME), crate::report::page(&results))?;
+        written.push(report::NAME.into());
+    }
+    Ok(written)
 }
 
 /// Modes whose times are printed; the others are brief in most runs, and stand in `summary.json`.

@@ -38,6 +38,6 @@ pub fn man(folder: Option<&Path>) -> Result<(), Failure> {
 
 fn page(command: Command) -> Result<String, Failure> {
     let mut page = Vec::new();
-    clap_mangen::Man::new(command).render(&mut page).map_err(|error| Failure::Print(error.to_string()))?;
+    clap_mangen::Man::new(command).render(&mut page).map_err(|error| Failure::StandardOutput(error.to_string()))?;
     Ok(String::from_utf8_lossy(&page).into_owned())
 }

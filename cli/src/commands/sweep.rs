@@ -23,6 +23,7 @@ use rocking::run_folder::Digest;
 use rocking::scene_file::{Cause, Setting};
 use rocking::sweep::{Ask, Cell, CellKind, Field, NOT_DETERMINED, Row, Sweep};
 use serde::Serialize;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Runs a sweep, or the missing points of an interrupted one.
@@ -33,41 +34,22 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
     if request.plot.is_some() {
         spectrum::check(request, &sweep)?;
     }
-    let mut outputs = vec![out.clone()];
-    outputs.extend(request.plot.iter().flat_map(|picture| spectrum::files(picture)));
-    // Probabilities and fractiles are made of whole tables only, not of shards.
-    let is_sampled = sweep.samples().is_some() && request.shard.is_none();
-    outputs.extend(is_sampled.then(|| probability::table(&out)));
-    let is_of_records = request.shard.is_none() && fractiles::has(&sweep);
-    outputs.extend(is_of_records.then(|| fractiles::table(&out)));
+    let made = Made::of(request, &sweep);
     let inputs = inputs_of(&request.file, &sweep);
-    outputs.extend(request.shard.map(|_| digest_file(&out)));
-    output::check(&outputs, &inputs)?;
+    output::check(&made.files(request, &out), &inputs)?;
     let target = output::target(&out)?;
-    let range = request.shard.map_or(0..sweep.len(), |shard| shard.points(sweep.len()));
-    let (fields, columns) = (sweep.fields().map_err(Failure::scene)?, columns(&sweep)?);
+    let columns = columns(&sweep)?;
     let threads = threads(request.threads)?;
     if !request.quiet {
         warn_of_some(&warnings(&sweep));
     }
-    let mut digest = TableDigest::of(&sweep, &request.file)?;
-    let of_sweep = digest.to_string();
-    digest.add(format!("{range:?}").as_bytes());
-    let mut table = Growing::open(&target, &columns, digest.number(), range.clone())?;
-    let resumed = table.next - range.start;
-    let bar = Progress::of_points(range.len(), resumed, request.quiet || request.json);
-    table.fill(range.end, &threads, &bar, || {
-        let (mut row, fields, ask) = (sweep.worker(), &fields, sweep.ask);
-        move |index| {
-            let row = row(index);
-            fields.iter().map(|field| cell(&row, *field, ask)).collect()
-        }
-    })?;
+    let digest = TableDigest::of(&sweep, &request.file)?;
+    let (table, resumed) = filled(request, &sweep, digest, &target, &columns, &threads)?;
     let (tally, first_error) = Tally::of(&table.part).map_err(at(Failure::Part, &table.part))?;
     table.close(format, &columns)?;
     // Only now: an interrupted run leaves the table of an earlier one with the digest of that one.
     match request.shard {
-        Some(_) => output::file(&digest_file(&out), of_sweep)?,
+        Some(_) => output::file(&digest_file(&out), digest.to_string())?,
         None => output::remove(&digest_file(&out), &inputs)?,
     }
     // Tables that belong to the table of an earlier sweep of this name.
@@ -76,23 +58,82 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
     }
     let drawn =
         request.plot.as_ref().map_or(Ok(String::new()), |picture| spectrum::draw(&out, picture, &Paper::default()))?;
-    let lost = if is_sampled { probability::of(&sweep, &out)? } else { Vec::new() };
+    let lost = if made.probabilities { probability::of(&sweep, &out)? } else { Vec::new() };
     let probabilities = probability::write(&sweep, &lost, &out)?;
-    let fractiles = if is_of_records { fractiles::write(&sweep, &out)? } else { String::new() };
+    let fractiles = if made.fractiles { fractiles::write(&sweep, &out)? } else { String::new() };
+    let rows = points(request, &sweep).len();
     if request.json {
         json(&Counts { tally: &tally, lost })?;
     } else if !request.quiet {
-        let resumed = if resumed > 0 { format!(" ({resumed} of them were there already)") } else { String::new() };
-        let wrote = format!("wrote {} row(s){resumed} to {}\n", range.len(), shown(&out));
+        let wrote = format!("wrote {rows} row(s){} to {}\n", already_there(resumed), shown(&out));
         // If all rows are errors, the failure below states the first one.
-        let failed = first_error.as_ref().filter(|_| tally.errors < range.len());
+        let failed = first_error.as_ref().filter(|_| tally.errors < rows);
         let failed = failed.map_or(String::new(), |error| format!("the first error: {error}\n"));
         print(&format!("{tally}{failed}{wrote}{probabilities}{fractiles}{drawn}"))?;
     }
     match first_error {
-        Some(error) if tally.errors == range.len() => Err(Failure::NoResult(out, range.len(), error)),
+        Some(error) if tally.errors == rows => Err(Failure::NoResult(out, rows, error)),
         _ => Ok(()),
     }
+}
+
+/// Which tables are made of the table of a sweep. They need all its points: shards have none.
+#[derive(Clone, Copy)]
+struct Made {
+    probabilities: bool,
+    fractiles: bool,
+}
+
+impl Made {
+    fn of(request: &arguments::Sweep, sweep: &Sweep) -> Made {
+        let is_whole = request.shard.is_none();
+        Made { probabilities: is_whole && sweep.samples().is_some(), fractiles: is_whole && fractiles::has(sweep) }
+    }
+
+    /// All files that a sweep writes.
+    fn files(self, request: &arguments::Sweep, out: &Path) -> Vec<PathBuf> {
+        let mut files = vec![out.to_path_buf()];
+        files.extend(request.plot.iter().flat_map(|picture| spectrum::files(picture)));
+        files.extend(self.probabilities.then(|| probability::table(out)));
+        files.extend(self.fractiles.then(|| fractiles::table(out)));
+        files.extend(request.shard.map(|_| digest_file(out)));
+        files
+    }
+}
+
+/// The points to be run: all of a sweep, or those of a shard.
+fn points(request: &arguments::Sweep, sweep: &Sweep) -> Range<usize> {
+    request.shard.map_or(0..sweep.len(), |shard| shard.points(sweep.len()))
+}
+
+/// The unfinished table with all its rows, and how many of them an interrupted sweep had left.
+fn filled(
+    request: &arguments::Sweep,
+    sweep: &Sweep,
+    mut digest: TableDigest,
+    target: &Path,
+    columns: &[Column],
+    threads: &rayon::ThreadPool,
+) -> Result<(Growing, usize), Failure> {
+    let points = points(request, sweep);
+    let fields = sweep.fields().map_err(Failure::scene)?;
+    digest.add(format!("{points:?}").as_bytes());
+    let mut table = Growing::open(target, columns, digest.number(), points.clone())?;
+    let resumed = table.next - points.start;
+    let bar = Progress::of_points(points.len(), resumed, request.quiet || request.json);
+    table.fill(points.end, threads, &bar, || {
+        let (mut row, fields, ask) = (sweep.worker(), &fields, sweep.ask);
+        move |index| {
+            let row = row(index);
+            fields.iter().map(|field| cell(&row, *field, ask)).collect()
+        }
+    })?;
+    Ok((table, resumed))
+}
+
+/// How many rows an interrupted run had left, in words; nothing if none.
+pub fn already_there(rows: usize) -> String {
+    if rows > 0 { format!(" ({rows} of them were there already)") } else { String::new() }
 }
 
 /// Largest number of points whose scenes are read before a sweep runs: a scene takes some 10 µs, and each record is read once.
@@ -107,7 +148,7 @@ fn warnings(sweep: &Sweep) -> Vec<String> {
 /// A pool of `count` threads; without a count, as many as the machine has.
 pub fn threads(count: Option<u16>) -> Result<rayon::ThreadPool, Failure> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(count.map_or(0, usize::from)).build();
-    pool.map_err(|error| Failure::Print(error.to_string()))
+    pool.map_err(|error| Failure::Threads(error.to_string()))
 }
 
 /// Reads a sweep, and refuses keys that no scene knows.

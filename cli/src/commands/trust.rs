@@ -1,7 +1,7 @@
 //! Companions of a run: whether they are run, and what is printed of their result.
 
 use crate::arguments;
-use rocking::trust::{Trust, TrustOptions, Verdict, follow_run};
+use rocking::trust::{Trust, TrustOptions, follow_run};
 use rocking::{Response, Scene, SolveError};
 
 /// Longest computing time of a run that is followed without `--trust` `[s]`. Companions of a longer run take half a minute and more.
@@ -44,8 +44,7 @@ impl Followed {
     /// Words before the outcome of a run whose verdict is not determined; otherwise empty.
     /// Empty also for a run that ends undetermined: its outcome says so itself.
     pub fn lead(&self) -> &'static str {
-        let is_open = self.trust().is_some_and(|trust| !trust.determined && trust.verdict != Verdict::Undetermined);
-        if is_open { "not determined; this run " } else { "" }
+        if self.trust().is_some_and(|trust| trust.is_open()) { "not determined; this run " } else { "" }
     }
 
     /// The line on trust; empty with `--no-trust`.

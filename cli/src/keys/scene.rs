@@ -126,7 +126,7 @@ pub struct Column {
     pub sizes: Sizes,
 }
 
-/// What the column as one body is scaled to: widths against heights first, then all lengths together.
+/// Sizes to which the column as one body is scaled: first its widths alone, to reach `alpha`; then all its lengths, to reach `p`, `rocking_period` or `R`.
 #[derive(JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Size {

@@ -2,15 +2,15 @@
 
 use crate::text::escape;
 use rocking::run_folder::Results;
-use rocking::trust::Verdict;
+use rocking::trust::Trust;
 use std::fmt::Write as _;
 
-/// Whether companions show that the verdict is not determined. False for a run that ends undetermined: its outcome already says so.
+/// Whether companions show that the verdict is not determined.
 fn is_open(results: &Results) -> bool {
-    results.trust.as_ref().is_some_and(|trust| !trust.determined && trust.verdict != Verdict::Undetermined)
+    results.trust.as_ref().is_some_and(Trust::is_open)
 }
 
-/// Class and words of the outcome. If the verdict is not determined, the words say so, and what became of the column in this run.
+/// Class and words of the outcome. If the verdict is not determined, the words say so, beside the outcome of this run.
 pub fn qualified(results: &Results, class: &'static str, words: String) -> (&'static str, String) {
     if !is_open(results) {
         return (class, words);

@@ -362,7 +362,7 @@ impl<'a> ProgramBuilder<'a> {
     }
 }
 
-/// Whether an expression is a symbol, the opposite of one, or a number.
+/// Whether an expression is a number or a symbol, or one of these with a minus sign.
 fn is_plain(arena: &Arena, expr: Expr) -> bool {
     match arena.node(expr) {
         Node::Symbol(_) | Node::Number(_) => true,

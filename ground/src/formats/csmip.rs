@@ -22,16 +22,16 @@ use crate::unit::AccelerationUnit;
 /// Lines of reals before the samples.
 const REAL_LINES: usize = 13;
 
-/// Columns of the reals, and of the samples if the line before the samples does not state them.
+/// Columns of the real header, the block of real numbers above the samples, and of the samples if the line before the samples does not state them.
 const COLUMNS: FixedWidth = FixedWidth(10);
 
 /// Headers round the peak to three digits.
 const PEAK: PeakBounds = PeakBounds { rounding: 5e-3, damage: 0.1 };
 
-/// Sampling intervals of accelerographs `[s]`. Other values at the place of the interval among the reals are of headers with another layout.
+/// Sampling intervals of accelerographs `[s]`. A value outside this range at the place [`REAL_DT`] shows that the header has another layout; it is ignored.
 const INTERVALS: std::ops::RangeInclusive<f64> = 1e-3..=0.1;
 
-/// Place of the sampling interval among the reals, from 0.
+/// Place of the sampling interval in the real header, from 0.
 const REAL_DT: usize = 60;
 
 /// Whether these are the lines of a CSMIP file.

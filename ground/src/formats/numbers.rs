@@ -308,7 +308,8 @@ impl Block<'_> {
         Ok(found)
     }
 
-    /// All rows; samples beyond the declared number are dropped with a warning. Twice as many are columns that are not of the record.
+    /// All rows. Samples beyond the declared number are dropped with a warning; twice the declared number or more is an error, as the rows then have
+    /// columns that are not samples.
     fn rows(&self, read: impl Fn(&str, usize) -> Result<Vec<f64>, RecordError>) -> Result<Samples, RecordError> {
         let declared = self.declared.unwrap_or(usize::MAX);
         let mut values = Vec::new();

@@ -171,7 +171,7 @@ class Record:
 
     @property
     def name(self) -> str:
-        """File, or name."""
+        """Name of the record: that of :meth:`named`, or the path of its file."""
         return self._record.source[0]
 
     @property

@@ -228,7 +228,7 @@ class Run:
 
     @property
     def outcome(self) -> str:
-        """What became of the column, as in tables: ``no-uplift``, ``rocks``, ``overturns``, ``slides``, ``collapses``, ``undetermined``.
+        """Outcome of the run, as in tables: ``no-uplift``, ``rocks``, ``overturns``, ``slides``, ``collapses``, ``undetermined``.
 
         That of this run; ``trust`` says whether it is determined.
         """

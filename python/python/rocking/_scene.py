@@ -358,7 +358,7 @@ class Scene:
     ) -> "Scene":
         """The scene with other arguments; ``keys`` takes dotted ones such as ``{"block[2].mass": 900.0}``.
 
-        Another column comes with its own gravity, 9.81 m/s² where it has none. None removes a key: ``friction=None`` gives the scene without friction,
+        Another ``column`` replaces the blocks, their ``size`` and the gravity, which is 9.81 m/s² unless the new column has one. None removes a key: ``friction=None`` gives the scene without friction,
         ``keys={"excitation.vertical": None}`` without vertical motion.
         """
         keys = self.keys

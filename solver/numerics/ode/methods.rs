@@ -69,7 +69,7 @@ impl Method {
         if self == Method::Auto { Method::Taylor } else { self }
     }
 
-    /// Methods with step control that can reach any tolerance: all but those of order 4. [`Method::Auto`] is left out: it steps by one of them.
+    /// Methods with step control of order 5 and more, which tests and benchmarks compare. [`Method::Auto`] is left out: it steps by one of them.
     pub const ACCURATE: [Method; 3] = [Method::Dop853, Method::DormandPrince54, Method::Taylor];
 
     /// The method of this name; `dopri5` is another name of `dormand-prince54`.

@@ -74,14 +74,14 @@ impl Bernstein {
         Bernstein { coefficients, degree }
     }
 
-    /// Sets value and derivatives of the polynomial at 0. They are known better than dense output gives them, and just after a reset they
+    /// Sets the polynomial to zero at 0, and its first two derivatives there. They are known better than dense output gives them, and just after a reset they
     /// decide on which side of zero a guard is.
-    pub fn start_with(&mut self, value: f64, first: f64, second: f64) {
+    pub fn start_at_zero(&mut self, first: f64, second: f64) {
         let degree = self.degree as f64;
         let b = &mut self.coefficients;
-        b[0] = value;
-        b[1] = b[0] + first / degree;
-        b[2] = 2.0 * b[1] - b[0] + second / (degree * (degree - 1.0));
+        b[0] = 0.0;
+        b[1] = first / degree;
+        b[2] = 2.0 * b[1] + second / (degree * (degree - 1.0));
     }
 
     /// The derivative by `s`.

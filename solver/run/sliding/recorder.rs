@@ -51,7 +51,7 @@ pub struct Node {
     pub weight: f64,
     /// `Σ m v` relative to the ground `[kg m/s]`.
     pub momentum: Vec2,
-    /// Contact forces by interface, in the axes of the faces that carry the contacts; empty if the states determine none.
+    /// Contact forces by interface, in the axes of the faces that carry the contacts; empty if the equations of the states are singular.
     pub contacts: PerBlock<ContactForce>,
     /// Rates of the slides, by interface `[m/s]`.
     pub slide_rates: PerBlock<f64>,
@@ -140,12 +140,12 @@ impl<'p> SlidingRecorder<'p> {
         self.report.jammed.extend(transition.is_jammed.then_some(t));
         self.report.without_restitution += transition.without_restitution;
         for change in &transition.changes {
-            self.change(t, change);
+            self.record_event(t, change);
         }
     }
 
     /// Records an event.
-    fn change(&mut self, t: f64, change: &Change) {
+    fn record_event(&mut self, t: f64, change: &Change) {
         let Change { kind, interfaces, before, after, impulses } = change;
         for (interface, flights) in self.report.flights.iter_mut().enumerate() {
             let has_landed = kind.is_impact() && interfaces.contains(&interface);

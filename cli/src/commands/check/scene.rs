@@ -275,6 +275,12 @@ impl Findings {
         if whole.stack.height > TALL {
             text.push_str("note: no column is as tall; sizes are in m\n");
         }
+        self.table_of_blocks(text);
+        self.table_of_stacks(text, gravity);
+        self.restitution(text, scene);
+    }
+
+    fn table_of_blocks(&self, text: &mut String) {
         text.push_str("\nblock  width [m]  height [m]  mass [kg]     inertia [kg m²]   (base first)\n");
         for (index, block) in self.blocks.iter().enumerate() {
             let _ = writeln!(
@@ -293,6 +299,9 @@ impl Findings {
                 let _ = writeln!(text, "  {key} = {} {unit}: {from}", significant(*value, 6));
             }
         }
+    }
+
+    fn table_of_stacks(&self, text: &mut String, gravity: f64) {
         text.push_str(
             "\nthe stack above each interface as one body, c half-width of its contact, h_P height of its centre of gravity:\n\
              interface  c [m]    h_P [m]  alpha [rad]  p [rad/s]  opens at [m/s2]  [g]      Housner's ratio\n",
@@ -320,6 +329,9 @@ impl Findings {
                 falling.join(", ")
             );
         }
+    }
+
+    fn restitution(&self, text: &mut String, scene: &Scene) {
         let factors: Vec<String> = self.restitution_factors.iter().map(|factor| format!("{factor:.4}")).collect();
         let factors = factors.join(", ");
         let _ = match &scene.restitution {
@@ -357,37 +369,17 @@ impl Findings {
             text.push_str("\nthe ground does not move\n");
         }
         for (component, motion) in components {
-            let Some(motion) = motion else { continue };
-            let words = ground_in_words::words(
-                &serde_json::to_value(motion.motion.description()).unwrap_or_default(),
-                gravity,
-                0.0,
-            );
-            let _ = writeln!(text, "\n{component} ground motion: {words}");
-            let _ = writeln!(
-                text,
-                "  PGA {:.4} g ({:.4} m/s²), PGV {:.4} m/s, PGD {:.4} m until {} s",
-                motion.pga / gravity,
-                motion.pga,
-                motion.pgv,
-                motion.pgd,
-                scene.options.t_end
-            );
-            match (motion.end, motion.left_with) {
-                (Some(end), Some([velocity, displacement])) => {
-                    let left = [velocity, displacement].map(|size| fixed(size, 4));
-                    let told = match velocity.is_finite() && displacement.is_finite() {
-                        true => format!("with {} m/s, displaced by {} m", left[0], left[1]),
-                        false => "beyond what numbers hold".into(),
-                    };
-                    let _ = writeln!(text, "  ends at {end:.4} s; the ground is left {told}");
-                    if end > scene.options.t_end {
-                        let _ = writeln!(text, "  note: that is after the end of the run, solver.t_end");
-                    }
-                }
-                _ => text.push_str("  goes on for ever\n"),
+            if let Some(motion) = motion {
+                let _ = writeln!(text, "\n{component} ground motion: {}", motion.words(gravity));
+                motion.sizes(text, gravity, scene.options.t_end);
             }
         }
+        self.openings(text, scene);
+    }
+
+    /// Which interfaces the ground motion opens of the column at rest.
+    fn openings(&self, text: &mut String, scene: &Scene) {
+        let gravity = scene.column.gravity();
         let lowest = self.stacks.iter().map(|stack| stack.uplift_acceleration).fold(f64::INFINITY, f64::min).max(0.0);
         let interfaces = self.opens.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
         let _ = match (&self.horizontal, &self.vertical) {
@@ -429,5 +421,28 @@ impl MotionFindings {
         let [pga, pgv, pgd] = motion.peaks(0.0, t_end);
         let end = motion.end();
         MotionFindings { motion: motion.clone(), pga, pgv, pgd, end, left_with: end.map(|end| motion.travel(end)) }
+    }
+
+    fn words(&self, gravity: f64) -> String {
+        ground_in_words::words(&serde_json::to_value(self.motion.description()).unwrap_or_default(), gravity, 0.0)
+    }
+
+    /// Peaks up to the end of the run, and how the motion ends.
+    fn sizes(&self, text: &mut String, gravity: f64, t_end: f64) {
+        let MotionFindings { pga, pgv, pgd, .. } = self;
+        let in_g = pga / gravity;
+        let _ = writeln!(text, "  PGA {in_g:.4} g ({pga:.4} m/s²), PGV {pgv:.4} m/s, PGD {pgd:.4} m until {t_end} s");
+        let (Some(end), Some([velocity, displacement])) = (self.end, self.left_with) else {
+            text.push_str("  goes on for ever\n");
+            return;
+        };
+        let left = match velocity.is_finite() && displacement.is_finite() {
+            true => format!("with {} m/s, displaced by {} m", fixed(velocity, 4), fixed(displacement, 4)),
+            false => "beyond what numbers hold".into(),
+        };
+        let _ = writeln!(text, "  ends at {end:.4} s; the ground is left {left}");
+        if end > t_end {
+            let _ = writeln!(text, "  note: that is after the end of the run, solver.t_end");
+        }
     }
 }
