@@ -130,8 +130,13 @@ fn rows_of_other_axes_are_kept_apart() {
         (counts.iter().filter_map(|count| count["runs"].as_u64()).sum::<u64>(), warnings)
     };
     let (all, warning) = fitted("");
+    let of_all = folder.read("t-fragility.csv");
     assert!(all == 144 && warning.contains("2 values of `column.alpha`") && warning.contains("--where"), "{warning}");
     assert_eq!(fitted("--where column.alpha=0.15"), (72, String::new()));
+    // The tables of all rows stay.
+    assert_eq!(folder.read("t-fragility.csv"), of_all);
+    assert_eq!(folder.table("t-where-fragility.csv").texts("where"), ["column.alpha=0.15"]);
+    assert!(folder.has("t-where-shares.csv"));
     let (runs, warning) = fitted("--where column.alpha=0.30");
     assert!(runs == 72 && warning.contains("6 run(s) end before their ground motion"), "{warning}");
     for (condition, word) in
@@ -139,4 +144,50 @@ fn rows_of_other_axes_are_kept_apart() {
     {
         folder.refused(&format!("fragility t.csv --state overturned --where {condition}"), &[word]);
     }
+}
+
+/// A peak that is no number says nothing, and is not taken for a small one.
+#[test]
+fn peaks_are_numbers() {
+    let folder = Folder::new();
+    for peak in ["nan", "-5", "inf", "word"] {
+        folder.write("t.csv", format!("seed,pga_g,outcome,peak_1\n1,0.1,rocks,0.1\n2,0.2,rocks,{peak}\n"));
+        folder
+            .refused("fragility t.csv --replicates 0", &["row 2, column `peak_1`", peak, "zero or a number above it"]);
+    }
+}
+
+/// Undecided runs are left out; the table and the text say what the curve would be if none or all of them reached the state.
+#[test]
+fn undecided_runs_bound_the_curve() {
+    let folder = Folder::new();
+    let mut table = String::from("record,pgv,outcome\n");
+    for record in 0..8 {
+        for level in 1..=6 {
+            let outcome = match (level + record % 4, record == 7 && level > 3) {
+                (_, true) => "not-determined",
+                (5.., _) => "overturns",
+                _ => "rocks",
+            };
+            let _ = writeln!(table, "r{record},{},{outcome}", f64::from(level) / 10.0);
+        }
+    }
+    folder.write("t.csv", &table);
+    let fitted = |table: &str| {
+        folder.write("one.csv", table);
+        let told = folder.succeeds("fragility one.csv --state overturned --replicates 0");
+        let found = folder.table("one-fragility.csv");
+        (
+            told,
+            ["median", "dispersion", "median_if_none", "dispersion_if_none", "median_if_all", "dispersion_if_all"]
+                .map(|name| found.texts(name)[0].to_string()),
+        )
+    };
+    let (told, [.., none, spread_of_none, all, spread_of_all]) = fitted(&table);
+    assert!(told.contains("3 undecided run(s) are left out, which biases the curve"), "{told}");
+    let (told, [median, dispersion, without, ..]) = fitted(&table.replace("not-determined", "rocks"));
+    assert_eq!([median, dispersion], [none, spread_of_none]);
+    assert!(without.is_empty() && !told.contains("undecided"), "{told}");
+    let (_, [median, dispersion, ..]) = fitted(&table.replace("not-determined", "overturns"));
+    assert_eq!([median, dispersion], [all, spread_of_all]);
 }

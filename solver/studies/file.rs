@@ -302,7 +302,15 @@ fn fragility(root: &mut Table, scene: &Scene) -> Result<(Vec<LimitState>, Fragil
     let Some(mut table) = root.table("fragility")? else { return Ok((DEFAULT_STATES.to_vec(), options)) };
     let states = match table.settings("states")? {
         None => DEFAULT_STATES.to_vec(),
-        Some(texts) => texts.iter().map(|text| state(&table, &text.to_string(), scene)).collect::<Result<_, _>>()?,
+        Some(texts) => {
+            let states = texts.iter().map(|text| state(&table, &text.to_string(), scene));
+            let states: Vec<LimitState> = states.collect::<Result<_, _>>()?;
+            let is_repeated = |(place, state): &(usize, &LimitState)| states[..*place].contains(state);
+            if let Some((_, state)) = states.iter().enumerate().find(is_repeated) {
+                return Err(table.wrong("states", format!("`{state}` is there twice"), "give each state once"));
+            }
+            states
+        }
     };
     if let Some(replicates) = table.whole("replicates", 0)? {
         if replicates > MOST_REPLICATES as u64 {

@@ -16,7 +16,7 @@ pub use options::{FragilityOptions, Layout, MOST_REPLICATES, TooFewReplicates};
 pub use table::{Bands, Count};
 
 use super::observation::{LimitState, Observation};
-use super::probit::{Maximum, Trial, fit};
+use super::probit::{Maximum, Probit, Trial, fit};
 use serde::Serialize;
 use std::ops::ControlFlow;
 use table::Table;
@@ -74,8 +74,11 @@ pub struct Fragility {
     pub records: usize,
     /// Runs by level, from the lowest up.
     pub counts: Vec<Count>,
-    /// The curve.
+    /// The curve of the decided runs.
     pub fit: Fit,
+    /// The curves if none, and if all, of the undecided runs reached the state. They bound what leaving these runs out can do: a run of long shaking
+    /// that a column survives is undecided more often than an early fall. `None` where no run is undecided, or none is decided.
+    pub bounds: Option<[Fit; 2]>,
     /// Goodness of the curve; `None` without a curve.
     pub goodness: Option<Goodness>,
     /// Bands of the curve; `None` without a curve or if no replicates are asked for.
@@ -142,27 +145,12 @@ impl Fragility {
             true => Layout::Stripes,
             false => Layout::Cloud,
         });
-        let maximum = fit(&trials(&counts));
-        let extreme = |pick: fn(f64, f64) -> f64| {
-            counts.iter().filter(|count| count.runs > 0).map(|count| count.level).reduce(pick)
-        };
-        let fit = match (maximum, extreme(f64::min), extreme(f64::max)) {
-            (_, None, _) | (_, _, None) => Fit::NoRuns,
-            (Maximum::Never, _, Some(up_to)) => Fit::Never { up_to },
-            (Maximum::Always, Some(from), _) => Fit::Always { from },
-            _ if table.records.len() == 1 => Fit::OneRecord,
-            (Maximum::Step { never_to, always_from }, ..) => Fit::Step { never_to, always_from },
-            (Maximum::Curve(curve), ..) if curve.slope > 0.0 => Fit::Lognormal {
-                median: curve.median(),
-                dispersion: curve.dispersion(),
-                log_likelihood: curve.log_likelihood,
-            },
-            _ => Fit::Falling,
-        };
-        let curve = match (maximum, fit) {
-            (Maximum::Curve(curve), Fit::Lognormal { .. }) => Some(curve),
-            _ => None,
-        };
+        let (fit, curve) = fitted(&counts, table.records.len());
+        let is_bounded = fit != Fit::NoRuns && counts.iter().any(|count| count.undecided > 0);
+        let bounds = is_bounded.then(|| {
+            let of = |reached: fn(&Count) -> usize| fitted(&decided(&counts, reached), table.records.len()).0;
+            [of(|_| 0), of(|count| count.undecided)]
+        });
         let bands = match curve {
             Some(_) if options.replicates > 0 => Some(table.bands(options, progress)?),
             _ => None,
@@ -172,6 +160,7 @@ impl Fragility {
             layout,
             records: table.records.len(),
             fit,
+            bounds,
             goodness: curve.map(|curve| Goodness::of(&counts, &curve, layout)),
             bands,
             falls: if layout == Layout::Stripes { falls(&counts) } else { Vec::new() },
@@ -205,6 +194,37 @@ impl Fragility {
     pub fn undecided(&self) -> usize {
         self.counts.iter().map(|count| count.undecided).sum()
     }
+}
+
+/// The curve of runs by level, and its parameters if there is one.
+fn fitted(counts: &[Count], records: usize) -> (Fit, Option<Probit>) {
+    let maximum = fit(&trials(counts));
+    let extreme =
+        |pick: fn(f64, f64) -> f64| counts.iter().filter(|count| count.runs > 0).map(|count| count.level).reduce(pick);
+    let fit = match (maximum, extreme(f64::min), extreme(f64::max)) {
+        (_, None, _) | (_, _, None) => Fit::NoRuns,
+        (Maximum::Never, _, Some(up_to)) => Fit::Never { up_to },
+        (Maximum::Always, Some(from), _) => Fit::Always { from },
+        _ if records == 1 => Fit::OneRecord,
+        (Maximum::Step { never_to, always_from }, ..) => Fit::Step { never_to, always_from },
+        (Maximum::Curve(curve), ..) if curve.slope > 0.0 => {
+            let (median, dispersion, log_likelihood) = (curve.median(), curve.dispersion(), curve.log_likelihood);
+            return (Fit::Lognormal { median, dispersion, log_likelihood }, Some(curve));
+        }
+        _ => Fit::Falling,
+    };
+    (fit, None)
+}
+
+/// Runs by level if the undecided ones are decided, so many of a level with the state.
+fn decided(counts: &[Count], reached: fn(&Count) -> usize) -> Vec<Count> {
+    let decided = |count: &Count| Count {
+        level: count.level,
+        runs: count.runs + count.undecided,
+        reached: count.reached + reached(count),
+        undecided: 0,
+    };
+    counts.iter().map(decided).collect()
 }
 
 fn trials(counts: &[Count]) -> Vec<Trial> {

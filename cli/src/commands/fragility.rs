@@ -12,7 +12,6 @@ use crate::{output, plot};
 use csv::StringRecord;
 use rocking::intensity::Intensity;
 use rocking::studies::{self, Cells, DEFAULT_STATES, Fit, Fragility, FragilityOptions, LimitState, Observation};
-use rocking::sweep::ERROR;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::fmt::Write as _;
@@ -25,7 +24,10 @@ pub fn fragility(request: &arguments::Fragility) -> Result<(), Failure> {
     let refused = |problem: String| Failure::Study(request.table.clone(), problem);
     let states = match &request.state[..] {
         [] => DEFAULT_STATES.to_vec(),
-        given => given.to_vec(),
+        given => {
+            let once = given.iter().enumerate().filter(|(place, state)| !given[..*place].contains(state));
+            once.map(|(_, state)| *state).collect()
+        }
     };
     if let Some((state, lacks)) = states.iter().find_map(|state| Some((state, lacking(state, peaks, has_slides)?))) {
         return Err(refused(format!("the state `{state}` {lacks}")));
@@ -35,13 +37,16 @@ pub fn fragility(request: &arguments::Fragility) -> Result<(), Failure> {
         (request.replicates as usize, request.confidence, request.seed);
     options.layout = request.layout;
     options.check().map_err(Failure::Bands)?;
-    let out = request.out.clone().unwrap_or_else(|| tables(&request.table)[0].clone());
+    // Curves of some of the rows do not take the place of those of all.
+    let kind = if request.conditions.is_empty() { "fragility" } else { "where-fragility" };
+    let out = request.out.clone().unwrap_or_else(|| beside(&request.table.with_extension("csv"), kind));
     if Format::of(&out)? != Format::Csv {
         return Err(Failure::OnlyCsv(out));
     }
     let outputs = [out.clone(), shares_beside(&out)].into_iter().chain(request.plot.clone());
     output::check(&outputs.collect::<Vec<_>>(), std::slice::from_ref(&request.table))?;
-    let conclusions = Conclusions::of(&runs, &measure, &states, &options);
+    let mut conclusions = Conclusions::of(&runs, &measure, &states, &options);
+    conclusions.rows = request.conditions.iter().map(|(name, value)| format!("{name}={value}")).collect();
     let mut report = conclusions.text();
     report.push_str(&conclusions.write_to(&out)?);
     if let Some(picture) = &request.plot {
@@ -76,8 +81,6 @@ pub struct Runs {
     /// Name of the measure: the heading of its column, or the last part of that heading if only this part is a measure.
     pub measure: String,
     pub runs: Vec<Observation>,
-    /// The first error in the table.
-    pub first_error: Option<String>,
     /// Warnings: columns that are neither the record nor the measure, and whose values differ; runs that were cut.
     warnings: Vec<String>,
     /// Number of the columns of peaks, one for each block.
@@ -110,9 +113,9 @@ pub fn read(table: &Path, measure: Option<&str>, conditions: &[(String, String)]
     }
     let name = &columns.names[columns.level];
     let measure = if is_measure(name) || measure.is_some() { name.clone() } else { last_part(name) };
-    let (warnings, first_error) = (pooling.warnings(), pooling.first_error);
+    let warnings = pooling.warnings();
     let (peaks, has_slides) = (columns.peaks.len(), !columns.slides.is_empty());
-    Ok(Runs { measure, runs, first_error, warnings, peaks, has_slides })
+    Ok(Runs { measure, runs, warnings, peaks, has_slides })
 }
 
 /// What is gathered of all rows that are read, beside their runs.
@@ -123,8 +126,6 @@ struct Pooling<'c> {
     records: BTreeSet<String>,
     /// The settings of all rows, in a table that numbers its runs.
     seen: HashSet<String>,
-    /// The first error in the table.
-    first_error: Option<String>,
     /// Number of runs that end before their ground motion, or with the energy to overturn.
     cut: usize,
 }
@@ -136,7 +137,6 @@ impl Pooling<'_> {
             values: vec![BTreeMap::new(); columns.others.len()],
             records: BTreeSet::new(),
             seen: HashSet::new(),
-            first_error: None,
             cut: 0,
         }
     }
@@ -154,9 +154,6 @@ impl Pooling<'_> {
             values.entry(row[*place].to_string()).or_default().insert(record.clone());
         }
         self.records.insert(record);
-        if let (ERROR, Some(error)) = (&row[columns.outcome], columns.error) {
-            self.first_error.get_or_insert_with(|| row[error].to_string());
-        }
         // `True` where another program has written the table.
         self.cut += usize::from(columns.truncated.is_some_and(|truncated| row[truncated].eq_ignore_ascii_case("true")));
         Ok(())
@@ -180,7 +177,7 @@ impl Pooling<'_> {
         });
         let cut = (self.cut > 0).then(|| {
             format!(
-                "{} run(s) end before their ground motion, or with the energy to overturn (`{TRUNCATED}`), and count as standing",
+                "{} run(s) end before their ground motion, or with the energy to overturn (`{TRUNCATED}`), and count as standing; a later `solver.t_end` settles them",
                 self.cut
             )
         });
@@ -211,7 +208,6 @@ struct Columns {
     others: Vec<usize>,
     outcome: usize,
     uplift: Option<usize>,
-    error: Option<usize>,
     trust: Option<usize>,
     truncated: Option<usize>,
     /// One for each block.
@@ -252,7 +248,6 @@ impl Columns {
             level,
             outcome,
             uplift: column("first_uplift"),
-            error: column("error"),
             trust: column(TRUST),
             truncated: column(TRUNCATED),
             peaks: numbered("peak_")?,
@@ -283,13 +278,17 @@ impl Columns {
     /// The run of a row, counted from zero. The error says what is wrong with a cell, after the number of the row.
     fn observation(&self, row: &StringRecord, number: usize) -> Result<Observation, String> {
         let wrong =
-            |place: usize, wanted: &str| format!(", column `{}`: `{}` is not {wanted}", self.names[place], &row[place]);
+            |place: usize, wanted: &str| format!(", column `{}`: `{}` is not {wanted}; correct the cell", self.names[place], &row[place]);
         let level: Option<f64> = row[self.level].parse().ok();
         let level = level.filter(|level| level.is_finite() && *level > 0.0);
         // Columns of blocks that this row's column does not have are blank, at the end.
-        let numbers = |places: &[usize]| -> Result<Vec<f64>, String> {
+        let numbers = |places: &[usize], least: f64, wanted: &str| -> Result<Vec<f64>, String> {
             let filled = places.iter().rposition(|place| !row[*place].is_empty()).map_or(0, |last| last + 1);
-            places[..filled].iter().map(|place| row[*place].parse().map_err(|_| wrong(*place, "a number"))).collect()
+            let number = |place: &usize| {
+                let number: Option<f64> = row[*place].parse().ok();
+                number.filter(|number| number.is_finite() && *number >= least).ok_or_else(|| wrong(*place, wanted))
+            };
+            places[..filled].iter().map(number).collect()
         };
         let cells = Cells {
             record: self.record_of(row, number),
@@ -297,8 +296,8 @@ impl Columns {
             outcome: Some(&row[self.outcome]),
             trust: self.trust.map(|trust| &row[trust]),
             has_uplift: self.uplift.map(|uplift| !row[uplift].is_empty()),
-            peaks: numbers(&self.peaks)?,
-            residual_slides: numbers(&self.slides)?,
+            peaks: numbers(&self.peaks, 0.0, "zero or a number above it")?,
+            residual_slides: numbers(&self.slides, f64::NEG_INFINITY, "a number")?,
         };
         Observation::try_from(cells).map_err(|refused| format!(", {refused}"))
     }
@@ -356,13 +355,16 @@ fn shares_beside(curves: &Path) -> PathBuf {
 #[derive(Serialize)]
 pub struct Conclusions {
     measure: String,
+    /// Conditions on the rows that were read, as given to `--where`; empty for all rows.
+    #[serde(skip_serializing_if = "Vec::is_empty", rename = "where")]
+    rows: Vec<String>,
     pub fragilities: Vec<Fragility>,
 }
 
 impl Conclusions {
     pub fn of(runs: &[Observation], measure: &str, states: &[LimitState], options: &FragilityOptions) -> Conclusions {
         let fragilities = states.iter().map(|state| Fragility::of(runs, *state, options)).collect();
-        Conclusions { measure: measure.into(), fragilities }
+        Conclusions { measure: measure.into(), rows: Vec::new(), fragilities }
     }
 
     /// In words: a paragraph per state.
@@ -395,7 +397,7 @@ impl Conclusions {
     /// The table of curves: a row per state.
     fn curves(&self) -> Result<Vec<u8>, csv::Error> {
         let mut table = csv::Writer::from_writer(Vec::new());
-        self.fragilities.iter().try_for_each(|fragility| table.serialize(Curve::of(fragility, &self.measure)))?;
+        self.fragilities.iter().try_for_each(|fragility| table.serialize(Curve::of(fragility, self)))?;
         table.into_inner().map_err(|error| csv::Error::from(error.into_error()))
     }
 
@@ -430,6 +432,8 @@ impl Conclusions {
 struct Curve<'a> {
     state: String,
     measure: &'a str,
+    /// Conditions on the rows that were read; blank for all rows.
+    r#where: String,
     fit: &'static str,
     median: Option<f64>,
     median_low: Option<f64>,
@@ -448,13 +452,17 @@ struct Curve<'a> {
     records: usize,
     runs: usize,
     undecided: usize,
+    median_if_none: Option<f64>,
+    dispersion_if_none: Option<f64>,
+    median_if_all: Option<f64>,
+    dispersion_if_all: Option<f64>,
     falls: usize,
     resurrections: usize,
     statement: String,
 }
 
 impl Curve<'_> {
-    fn of<'a>(fragility: &Fragility, measure: &'a str) -> Curve<'a> {
+    fn of<'a>(fragility: &Fragility, conclusions: &'a Conclusions) -> Curve<'a> {
         let (fit, curve) = match fragility.fit {
             Fit::Lognormal { median, dispersion, log_likelihood } => {
                 ("lognormal", Some([median, dispersion, log_likelihood]))
@@ -467,10 +475,15 @@ impl Curve<'_> {
             _ => ("falling", None),
         };
         let (bands, goodness) = (fragility.bands.as_ref(), fragility.goodness);
+        let [none, all] = [0, 1].map(|end| match fragility.bounds?[end] {
+            Fit::Lognormal { median, dispersion, .. } => Some([median, dispersion]),
+            _ => None,
+        });
         let [median, dispersion] = [bands.and_then(|bands| bands.median), bands.and_then(|bands| bands.dispersion)];
         Curve {
             state: fragility.state.to_string(),
-            measure,
+            measure: &conclusions.measure,
+            r#where: conclusions.rows.join("; "),
             fit,
             median: curve.map(|curve| curve[0]),
             median_low: median.map(|band| band[0]),
@@ -489,6 +502,10 @@ impl Curve<'_> {
             records: fragility.records,
             runs: fragility.counts.iter().map(|count| count.runs).sum(),
             undecided: fragility.undecided(),
+            median_if_none: none.map(|[median, _]| median),
+            dispersion_if_none: none.map(|[_, dispersion]| dispersion),
+            median_if_all: all.map(|[median, _]| median),
+            dispersion_if_all: all.map(|[_, dispersion]| dispersion),
             falls: fragility.falls.len(),
             resurrections: fragility.resurrections.len(),
             statement: fragility.statements().join("; "),

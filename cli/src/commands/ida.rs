@@ -6,7 +6,7 @@ use crate::arguments;
 use crate::commands::fragility::{self, Conclusions};
 use crate::commands::plot::write;
 use crate::commands::spectrum::beside;
-use crate::commands::sweep::{OUTCOME, TIME, TableDigest, already_there, threads};
+use crate::commands::sweep::{OUTCOME, TIME, TableDigest, Tally, already_there, threads};
 use crate::error::{Failure, at};
 use crate::output;
 use crate::plot::{self, Figure, Paper};
@@ -45,6 +45,16 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     }
     let columns = columns(ida);
     let (table, resumed) = filled(request, ida, digest(inputs)?, &target, &columns, &threads)?;
+    let (counted, first_error) = Tally::of(&table.part).map_err(at(Failure::Part, &table.part))?;
+    let failure = |is_kept| {
+        let first = first_error.clone().filter(|_| counted.errors == ida.len())?;
+        Some(Failure::NoResult { table: out.clone(), points: ida.len(), first, is_kept })
+    };
+    // A table of errors takes the place of no other table.
+    if let Some(failure) = failure(true).filter(|_| target.exists()) {
+        table.discard()?;
+        return Err(failure);
+    }
     // What was made of an earlier table of this name must not stand beside the new one.
     for table in &derived {
         output::remove(table, inputs)?;
@@ -52,7 +62,7 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     table.close(format, &columns)?;
 
     // What follows is made of the table, so that it is the same whether or not the study was interrupted.
-    let fragility::Runs { runs, first_error, .. } = fragility::read(out, None, &[])?;
+    let runs = fragility::read(out, None, &[])?.runs;
     let stripes = stripes(&runs);
     output::file(&stripes_file, stripe_table(ida, &stripes))?;
     let measure = ida.intensity().to_string();
@@ -79,11 +89,7 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     } else if !request.quiet {
         print(&report)?;
     }
-    let failed: usize = stripes.iter().map(|stripe| stripe.errors).sum();
-    if failed == ida.len() {
-        return Err(Failure::NoResult(out.clone(), failed, first_error.unwrap_or_default()));
-    }
-    Ok(())
+    failure(false).map_or(Ok(()), Err)
 }
 
 /// The unfinished table with all its rows, and how many of them an interrupted study had left.
@@ -247,11 +253,17 @@ fn tally(ida: &Ida, stripes: &[Stripe]) -> String {
     let total = |place: usize| stripes.iter().map(|stripe| stripe.fates[place]).sum::<usize>();
     let always = [Fate::NoUplift, Fate::Rocks, Fate::Overturns];
     let fates = Fate::ALL.iter().enumerate().map(|(place, fate)| (fate, total(place)));
-    let report = fates.filter(|(fate, count)| *count > 0 || always.contains(*fate));
+    let report = fates.clone().filter(|(fate, count)| *count > 0 || always.contains(*fate));
     let report: Vec<String> =
         report.map(|(fate, count)| format!("{} {count}", fate.name().replace('-', " "))).collect();
     let errors: usize = stripes.iter().map(|stripe| stripe.errors).sum();
     let _ = writeln!(text, "{}, errors {errors}", report.join(", "));
+    let is_open = |(fate, count): (&Fate, usize)| *fate == Fate::NotDetermined && count > 0;
+    if fates.clone().any(is_open) {
+        text.push_str(
+            "not determined: companions end otherwise, or the column may be falling where the run ends (a longer free_swing settles that)\n",
+        );
+    }
     text
 }
 

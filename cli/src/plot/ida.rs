@@ -122,23 +122,24 @@ fn lost_and_undecided(runs: &[Observation], undecided: usize, levels: [usize; 2]
 }
 
 /// A curve through the responses, from `begins` and the lowest level up. At a level at which the column is lost, the curve runs to the right edge. It comes back
-/// where the column stands again. The curve is broken where a run has no answer.
+/// where the column stands again. The curve is broken where a run has no answer; a run between two of these is a dot.
 fn draw(sheet: &mut Sheet, panel: &Panel, begins: Option<(f64, f64)>, points: &[(Option<f64>, f64)], stroke: &Stroke) {
     let edge = panel.x.range[1];
     let mut runs: Vec<Vec<Point>> = Vec::new();
-    let mut last = begins;
-    for (demand, level) in points {
-        let here = demand.map(|demand| (demand, *level));
-        if let (Some(from), Some(to)) = (last, here)
-            && (from.0.is_finite() || to.0.is_finite())
-        {
-            let [from, to] = [from, to].map(|(demand, level)| panel.place([demand.min(edge), level]));
-            match runs.last_mut() {
-                Some(run) if run.last() == Some(&from) => run.push(to),
-                _ => runs.push(vec![from, to]),
+    let at = |(demand, level): (f64, f64)| panel.place([demand.min(edge), level]);
+    let points: Vec<_> =
+        begins.map(|(demand, level)| (Some(demand), level)).into_iter().chain(points.iter().copied()).collect();
+    for part in points.chunk_by(|a, b| a.0.is_some() && b.0.is_some()) {
+        let known: Vec<(f64, f64)> = part.iter().filter_map(|(demand, level)| Some(((*demand)?, *level))).collect();
+        match known[..] {
+            [alone] if Some(alone) != begins => sheet.dot(at(alone), stroke.color),
+            _ => {
+                // Between two levels at which the column is lost nothing is drawn.
+                let segments =
+                    known.chunk_by(|a, b| a.0.is_finite() || b.0.is_finite()).filter(|points| points.len() > 1);
+                runs.extend(segments.map(|segment| segment.iter().map(|point| at(*point)).collect()));
             }
         }
-        last = here;
     }
     sheet.lines(panel, &runs, stroke);
 }

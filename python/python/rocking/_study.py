@@ -273,7 +273,7 @@ class Study:
         if "truncated" in names:
             cut = int((table["truncated"].astype("string").str.lower() == "true").fillna(False).sum())
             if cut:
-                told = f"{cut} run(s) end before their ground motion, or with the energy to overturn (`truncated`), and count as standing"
+                told = f"{cut} run(s) end before their ground motion, or with the energy to overturn (`truncated`), and count as standing; a later t_end settles them"
                 warnings.warn(told, stacklevel=stacklevel)
 
         def texts(name: str) -> list[str | None]:
@@ -375,6 +375,9 @@ class Fragility:
         Of the curve; the median in the unit of the measure.
     bands : dict or None
         ``median``, ``dispersion`` and, over ``levels``, ``probability``: lower and upper ends; None where too few resampled sets have a curve.
+    bounds : list of dict or None
+        The curves if none, and if all, of the undecided runs reached the state: ``kind``, and of a curve ``median`` and ``dispersion``. None where no run is
+        undecided.
     goodness : dict or None
         Pearson's chi-squared, its p-value, McFadden's R².
     falls, resurrections : list
@@ -397,6 +400,7 @@ class Fragility:
         self.log_likelihood: float | None = found["fit"].get("log_likelihood")
         bands = found["bands"]
         self.bands: dict[str, Any] | None = None if bands is None or bands["median"] is None else bands
+        self.bounds: list[dict[str, Any]] | None = found["bounds"]
         self.goodness: dict[str, Any] | None = found["goodness"]
         self.falls: list[list[float]] = found["falls"]
         self.resurrections: list[str] = found["resurrections"]

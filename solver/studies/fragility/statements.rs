@@ -21,9 +21,27 @@ impl Fragility {
             self.few_records(),
             self.goodness_in_words(),
             self.not_monotonic(),
-            (self.undecided() > 0).then(|| format!("{} undecided run(s) are left out", self.undecided())),
+            self.left_out(),
         ];
         sentences.into_iter().flatten().collect()
+    }
+
+    /// Warning that runs are left out, and what that can do to the curve; `None` if there are none.
+    fn left_out(&self) -> Option<String> {
+        let left_out = format!("{} undecided run(s) are left out", self.undecided());
+        let curve = |fit: Fit| match fit {
+            Fit::Lognormal { median, dispersion, .. } => {
+                format!("median {} and dispersion {}", brief(median), brief(dispersion))
+            }
+            _ => "no curve".into(),
+        };
+        let bias = self.bounds.map_or(String::new(), |[none, all]| {
+            let [none, all] = [none, all].map(curve);
+            format!(
+                ", which biases the curve if they stand more often than the others: {none} if none of them reaches the state, {all} if all do"
+            )
+        });
+        (self.undecided() > 0).then(|| left_out + &bias)
     }
 
     fn bands_in_words(&self) -> Option<String> {
