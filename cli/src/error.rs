@@ -48,9 +48,21 @@ pub enum Failure {
     /// An option needs one record and not a folder.
     #[error("--{} is for a single record and {} is a folder; give one of its files", .1, .0.display())]
     FolderOption(PathBuf, &'static str),
-    /// No row of a sweep or study has a result: the table, its number of rows, and the first error.
-    #[error("{}: none of the {} point(s) has a result; the first says: {}", .0.display(), .1, .2)]
-    NoResult(PathBuf, usize, String),
+    /// No row of a sweep or study has a result.
+    #[error(
+        "{}: none of the {points} point(s) has a result; the first says: {first}{}",
+        table.display(),
+        if *is_kept { ". The table that was there is left as it was" } else { "" }
+    )]
+    NoResult {
+        /// The table of the results.
+        table: PathBuf,
+        points: usize,
+        /// The first error.
+        first: String,
+        /// Whether the table of an earlier run is kept.
+        is_kept: bool,
+    },
     /// No scene of a sweep is valid: the sweep, the number of scenes read, and the first error.
     #[error("{}: none of the {} scene(s) of its points that were read is valid; {}", .0.display(), .1, .2)]
     NoScene(PathBuf, usize, String),
@@ -172,7 +184,7 @@ impl Failure {
     pub fn exit_code(&self) -> u8 {
         if matches!(
             self,
-            Failure::Solve { .. } | Failure::StandardOutput(_) | Failure::Threads(_) | Failure::NoResult(..)
+            Failure::Solve { .. } | Failure::StandardOutput(_) | Failure::Threads(_) | Failure::NoResult { .. }
         ) {
             1
         } else {

@@ -60,7 +60,7 @@ fn execute(arguments: Arguments) -> u8 {
         Ok(()) => 0,
         Err(failure) => {
             let code = failure.exit_code();
-            eprintln!("{:?}", miette::Report::new(error::Report(failure)));
+            terminal::complain(&format!("{:?}", miette::Report::new(error::Report(failure))));
             code
         }
     }

@@ -28,10 +28,15 @@ pub fn json_text(text: &str) -> Result<(), Failure> {
     print(&(text.chars().map(escape).collect::<String>() + "\n"))
 }
 
+/// Writes a line to standard error. Where it cannot be written, nobody can be told, and the command goes on.
+pub fn complain(line: &str) {
+    let _ = writeln!(std::io::stderr(), "{line}");
+}
+
 /// Prints each warning as a line on standard error.
 pub fn warn(warnings: &[String]) {
     for warning in warnings {
-        eprintln!("warning: {}", printable(warning));
+        complain(&format!("warning: {}", printable(warning)));
     }
 }
 
@@ -43,6 +48,6 @@ pub fn warn_of_some(warnings: &[String]) {
     let (first, others) = warnings.split_at(warnings.len().min(MOST_WARNINGS));
     warn(first);
     if !others.is_empty() {
-        eprintln!("warning: and {} more", others.len());
+        complain(&format!("warning: and {} more", others.len()));
     }
 }

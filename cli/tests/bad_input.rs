@@ -131,6 +131,30 @@ t_end = 1.0
 ";
 
 #[test]
+fn sizes_are_named_by_the_key_that_gives_them() {
+    let beside = "half_width = 0.4\nbottom_width = 0.8\ntop_width = 0.6";
+    let named = ["line 2", "`block[1].half_width`", "`bottom_width` and `top_width` are given as well", "remove it"];
+    refused(&with("half_width = 0.4", beside), &named);
+    let pointed =
+        "[[block]]\nhalf_width = 0.4\nhalf_height = 1.0\n[[block]]\nbottom_width = 0.8\ntop_width = 0\nheight = 2.0\n";
+    refused(&format!("{pointed}{SCENE}"), &["line 6", "`block[2].top_width`", "leaves no width to stand on"]);
+    let too_strong = with(
+        "kind = \"sine-pulse\"\namplitude = 3.0\nomega = 10.0",
+        "kind = \"synthetic\"\nseed = 1\nduration = 5.0\npga_g = 4e5",
+    );
+    refused(&too_strong, &["line 8", "`excitation.horizontal.pga_g`", "out of range"]);
+    refused(
+        &record("dt = 0.01\naccel = [0.0, 1e12, 0.0]"),
+        &["line 7", "`excitation.horizontal.accel`", "out of range"],
+    );
+    let damped = "file = \"short.AT2\"\nlenient = true\npga = 3.0\nsa_damping = 0.1";
+    refused(
+        &record(damped),
+        &["line 9", "`excitation.horizontal.sa_damping`", "nothing is scaled to `sa`", "remove it"],
+    );
+}
+
+#[test]
 fn friction_that_no_contact_has() {
     let number = |value: &str| format!("friction = {value}\n{DRUMS}");
     refused(&number("-0.1"), &["line 1", "`friction.static`", "-0.1 is out of range", "from zero to 1e100"]);

@@ -375,6 +375,45 @@ fn a_sweep_without_any_result_fails_with_the_first_reason() {
     }
     folder.write("sweep.toml", "scene = \"base.toml\"\n[axes]\neta = [1.5, 0.9]\n");
     assert!(folder.succeeds("sweep sweep.toml").contains("errors 1"));
+    // A table of errors does not take its place.
+    let earlier = folder.read("sweep.csv");
+    folder.write("sweep.toml", "scene = \"base.toml\"\n[axes]\neta = [1.5, 2.5]\n");
+    folder.fails(1, "sweep sweep.toml", &["none of the 2 point(s)", "left as it was"]);
+    assert_eq!(folder.read("sweep.csv"), earlier);
+    assert_eq!(folder.names(""), ["base.toml", "sweep.csv", "sweep.toml"]);
+}
+
+/// The first point and the last one have faults of their own, which hide the unknown key.
+#[test]
+fn an_unknown_key_is_refused_whatever_else_is_wrong() {
+    let folder = folder("scene = \"base.toml\"\n[axes]\nseed = [1, 2]\neta = [1.5, 0.9, 2.5]\n");
+    folder.refused("sweep sweep.toml", &["sweep.toml, line 3", "`axes.excitation.horizontal.seed`", "unknown"]);
+    assert!(!folder.has("sweep.csv"));
+}
+
+#[test]
+fn a_value_is_given_once() {
+    let folder = folder("scene = \"base.toml\"\n[axes]\neta = [0.8, 0.9, 0.8]\n");
+    folder.refused("sweep sweep.toml", &["line 3", "`axes.eta`", "0.8 is there twice", "give each value once"]);
+    folder.write(
+        "sweep.toml",
+        "scene = \"base.toml\"\ncombine = \"paired\"\n[axes]\neta = [0.8, 0.8]\nomega = [9.0, 11.0]\n",
+    );
+    folder.succeeds("sweep sweep.toml");
+}
+
+/// Standard error that cannot be written loses no result and is no panic.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_standard_error_stops_nothing() {
+    let folder = folder("scene = \"base.toml\"\n[axes]\nzork = [1, 2]\n");
+    folder.write("warned.toml", format!("{BASE}[output]\ndt = 0.1\n").replace("t_end = 6.0", "t_end = 0.3"));
+    let full = || std::fs::File::options().write(true).open("/dev/full").expect("a device of Linux");
+    let status = |arguments: &str| folder.command(arguments).stderr(full()).status().expect("it runs").code();
+    assert_eq!(status("sweep sweep.toml"), Some(2));
+    assert!(folder.says("run warned.toml --out warned").1.contains("warning: "));
+    assert_eq!(status("run warned.toml --out warned --report --plots"), Some(0));
+    assert!(folder.has("warned/report.html"));
 }
 
 #[test]
@@ -385,7 +424,13 @@ fn an_unreadable_record_does_not_switch_off_the_check_for_unknown_keys() {
     folder.copy("scenes/records/synthetic.AT2", "records/b.AT2");
     folder.write("records/a.txt", "no record\n");
     folder.write("base.toml", BASE.replace(PULSE, "kind = \"record\"\nfile = \"records/b.AT2\""));
-    folder.refused("sweep sweep.toml", &["pga_gg", "unknown"]);
+    folder.refused("sweep sweep.toml", &["sweep.toml, line 4", "pga_gg", "unknown"]);
+    // As well where the last point has the record.
+    folder.write("records/c.txt", "no record\n");
+    for arguments in ["sweep sweep.toml", "check sweep.toml"] {
+        folder.refused(arguments, &["sweep.toml, line 4", "pga_gg", "unknown"]);
+    }
+    folder.remove("records/c.txt");
     assert!(!folder.has("sweep.csv"));
     folder.write("sweep.toml", axes("pga_g"));
     let told = folder.succeeds("sweep sweep.toml");

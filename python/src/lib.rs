@@ -7,6 +7,7 @@
 mod error;
 mod interrupt;
 mod keys;
+mod origin;
 mod record;
 mod run;
 mod scene;

@@ -2,7 +2,6 @@
 
 use crate::error;
 use crate::interrupt::in_order;
-use crate::scene::Scene;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -91,25 +90,22 @@ impl Record {
         scaled.map(Record::from).map_err(|refused| self.refused(py, &refused))
     }
 
-    /// The record scaled to a measure, of the names of a scene file.
-    #[pyo3(signature = (measure, size, gravity, column, sa_period, sa_damping))]
+    /// The record scaled to a measure, of the names of a scene file; `unit` is the size of one unit of a measure that needs a column.
+    #[pyo3(signature = (measure, size, gravity, unit, sa_period, sa_damping))]
     fn scaled_to(
         &self,
         py: Python<'_>,
         measure: &str,
         size: f64,
         gravity: f64,
-        column: Option<&Scene>,
+        unit: Option<f64>,
         sa_period: Option<f64>,
         sa_damping: Option<f64>,
     ) -> PyResult<Record> {
         let intensity = intensity(measure, sa_period, sa_damping)?;
         above_zero(measure, size)?;
         above_zero("gravity", gravity)?;
-        let (unit, gravity) = match column.map(|scene| &scene.scene.column) {
-            Some(column) => (Some(intensity.unit_size(column)), column.gravity()),
-            None => (intensity.unit_size_without_column(gravity), gravity),
-        };
+        let unit = unit.or_else(|| intensity.unit_size_without_column(gravity));
         let unit = unit.ok_or_else(|| {
             PyValueError::new_err(format!("{measure} is over what opens the base of a column; give `column`"))
         })?;

@@ -1,7 +1,7 @@
 //! Responses: arrays, events, summary, and the files of a run.
 
 use crate::error;
-use crate::scene::Origin;
+use crate::origin::Origin;
 use numpy::ndarray::{Dimension, IntoDimension};
 use numpy::{IntoPyArray, PyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use pyo3::exceptions::PyValueError;

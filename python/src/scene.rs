@@ -3,12 +3,12 @@
 use crate::error;
 use crate::interrupt::{Signals, on_all_threads};
 use crate::keys::to_toml;
-use crate::record::Record;
+use crate::origin::Origin;
+use crate::record::{Record, intensity};
 use crate::run::Response;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
-use rocking::run_folder::SceneText;
 use rocking::trust::{Trust, TrustOptions, follow_run_observed};
 use rocking::{Motion, Wanted, simulate_observed};
 use serde::{Deserialize, Serialize};
@@ -21,19 +21,6 @@ use std::time::Instant;
 pub struct Scene {
     pub scene: Arc<rocking::Scene>,
     pub origin: Arc<Origin>,
-}
-
-/// The file of a scene, as reports name it.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub struct Origin {
-    pub file: PathBuf,
-    pub text: String,
-}
-
-impl Origin {
-    pub fn scene_text(&self) -> SceneText {
-        SceneText { file: self.file.clone(), text: self.text.clone() }
-    }
 }
 
 /// A scene as it is pickled: samples of records included.
@@ -147,6 +134,13 @@ impl Scene {
     /// The scene as JSON, defaults filled in.
     fn json(&self) -> PyResult<String> {
         serde_json::to_string(&*self.scene).map_err(error::unwritable)
+    }
+
+    /// Size of one unit of a measure for this column, and gravity `[m/s²]`.
+    #[pyo3(signature = (measure, sa_period, sa_damping))]
+    fn unit_of(&self, measure: &str, sa_period: Option<f64>, sa_damping: Option<f64>) -> PyResult<(f64, f64)> {
+        let column = &self.scene.column;
+        Ok((intensity(measure, sa_period, sa_damping)?.unit_size(column), column.gravity()))
     }
 
     /// Sizes of the blocks, base first, a list each.

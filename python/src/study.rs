@@ -2,8 +2,9 @@
 
 use crate::error;
 use crate::interrupt::{in_order, on_all_threads};
+use crate::origin::Origin;
 use crate::record::{Record, intensity};
-use crate::scene::{Origin, Scene};
+use crate::scene::Scene;
 use crate::sweep::{per_block, range};
 use crate::table::{Column, Names, Values, into_python, whole};
 use numpy::PyReadonlyArray2;

@@ -2,7 +2,8 @@
 
 use crate::error;
 use crate::interrupt::in_order;
-use crate::scene::{Origin, Scene};
+use crate::origin::Origin;
+use crate::scene::Scene;
 use crate::table::{Column, Names, Values, into_python, truth, whole};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;

@@ -1,18 +1,24 @@
 //! The blocks of a scene: `[[block]]`, or `[column]`, which is cut into blocks, scaled to `[size]`.
 
 use super::derived::Derived;
+use super::fault::refused;
 use super::file_kind::FileKind;
 use super::table::{Cause, Table, Wrong};
-use crate::column::{Block, Column, MOST_BLOCKS, Shape};
-use crate::scene::{LENGTHS, Look};
+use crate::column::{Block, Column, ColumnError, MOST_BLOCKS, Shape};
+use crate::scene::{LENGTHS, Look, SceneError};
 use std::f64::consts::TAU;
 
 /// The blocks, scaled to `[size]` where that is given.
 pub(super) fn column(root: &mut Table, gravity: f64, derived: &mut Vec<Derived>) -> Result<(Column, Vec<Look>), Wrong> {
     let size_table = root.table("size")?;
     let (blocks, looks): (Vec<Block>, Vec<Look>) = blocks(root, derived)?.into_iter().unzip();
-    let column =
-        Column::new(blocks, gravity).map_err(|error| root.wrong("block", error.to_string(), "correct the block"))?;
+    let column = Column::new(blocks, gravity).map_err(|error| match error {
+        ColumnError::Shape { block, quantity, value, problem } => {
+            let key = format!("block[{block}].{quantity}");
+            refused(root, &SceneError { key, problem: format!("{value} {problem}"), remedy: "correct it".into() })
+        }
+        error => root.wrong("block", error.to_string(), "correct the block"),
+    })?;
     let plain = looks.iter().all(|look| *look == Look::default());
     let shapes: Vec<Shape> = looks.iter().map(|look| look.shape).collect();
     let looks = if plain { Vec::new() } else { looks };
@@ -216,6 +222,10 @@ fn sizes(table: &mut Table) -> Result<Sizes, Wrong> {
         (None | Some("prism"), None) => Shape::Prism,
         (Some(other), _) => return Err(table.no_such("shape", "shape", other, &["prism", "drum"])),
     };
+    if let (Some((both, _)), Some((bottom, _)), Some((top, _))) = (both, bottom, top) {
+        let problem = format!("`{bottom}` and `{top}` are given as well, and leave nothing to it");
+        return Err(Wrong { cause: Cause::Key, ..table.wrong(both, problem, "remove it") });
+    }
     let half_widths = match (bottom.or(both), top.or(both)) {
         (Some((_, bottom)), Some((_, top))) => [bottom, top],
         (None, None) => return Err(table.missing("half_width", "give it in m, or `width`, or `diameter`")),

@@ -111,14 +111,25 @@ impl Table {
     /// The key that stands in the file for a dotted key that does not: `excitation.horizontal.amplitude_g` for its `amplitude`. `None` where the key
     /// itself is given, or nothing in its place.
     pub fn stand_in(&self, key: &str) -> Option<String> {
+        self.given(key).filter(|given| given != key)
+    }
+
+    /// A dotted key if it is given, or the key that stands in its place; `None` if there is neither.
+    pub fn given(&self, key: &str) -> Option<String> {
         if let Some((first, rest)) = key.split_once('.') {
             let entry = self.entry(first).or_else(|| self.entry(without_index(first)))?;
-            let Value::Table(table) = &entry.value else { return None };
-            return table.stand_in(rest).map(|rest| format!("{first}.{rest}"));
+            let table = match &entry.value {
+                Value::Table(table) => table,
+                Value::Array(items) => match items.get(index(first)?)? {
+                    (Value::Table(table), _) => table,
+                    _ => return None,
+                },
+                _ => return None,
+            };
+            return table.given(rest).map(|rest| format!("{first}.{rest}"));
         }
         let others = ALTERNATIVES.iter().filter(|group| group.contains(&key)).flat_map(|group| *group);
-        let given = others.copied().find(|other| self.has(other));
-        given.filter(|_| !self.has(key)).map(str::to_string)
+        std::iter::once(&key).chain(others).find(|own| self.has(own)).map(|own| own.to_string())
     }
 }
 

@@ -238,6 +238,10 @@ pub(super) struct Target {
 
 /// Size that one of the keys [`NAMES`](crate::intensity::NAMES) gives; `None` without such a key.
 pub(super) fn target(table: &mut Table, column: &Column) -> Result<Option<Target>, Wrong> {
+    let is_of_spectrum = ["sa", "sa_g"].iter().any(|key| table.has(key));
+    if let Some(key) = ["sa_period", "sa_damping"].into_iter().find(|key| table.has(key) && !is_of_spectrum) {
+        return Err(table.wrong(key, "nothing is scaled to `sa` or `sa_g`".into(), "remove it, or give one of them"));
+    }
     let sa = spectrum(table)?;
     let mut found: Option<Target> = None;
     for key in NAMES {
@@ -251,10 +255,6 @@ pub(super) fn target(table: &mut Table, column: &Column) -> Result<Option<Target
         let intensity = Intensity::named(key, sa)
             .ok_or_else(|| table.missing("sa_period", &format!("give the period of `{key}` in s")))?;
         found = Some(Target { key, measure: intensity.measure, size: value * intensity.unit_size(column) });
-    }
-    let is_of_spectrum = found.as_ref().is_some_and(|target| matches!(target.measure, Measure::Sa { .. }));
-    if let Some(key) = ["sa_period", "sa_damping"].into_iter().find(|key| table.has(key) && !is_of_spectrum) {
-        return Err(table.wrong(key, "nothing is scaled to `sa` or `sa_g`".into(), "remove it, or give one of them"));
     }
     Ok(found)
 }

@@ -1,7 +1,8 @@
 //! Why a reader refuses what it reads. A fault has its place in the text; [`Reader::error`](super::reader::Reader::error) adds file and line.
 
 use super::error::SceneFileError;
-use super::table::{Place, Table, Wrong};
+use super::table::{Cause, Place, Table, Wrong};
+use crate::scene::SceneError;
 use std::path::PathBuf;
 
 /// Why a reader refuses what it reads.
@@ -48,4 +49,29 @@ impl From<Wrong> for Fault {
     fn from(wrong: Wrong) -> Fault {
         Fault::Wrong(wrong)
     }
+}
+
+/// What is wrong where [`Scene::check`] found a fault, at the key that the fault names.
+pub(super) fn refused(root: &Table, fault: &SceneError) -> Wrong {
+    let SceneError { mut key, mut problem, remedy, .. } = fault.clone();
+    // The sizes of the blocks of a `[column]` come from the keys of `[column]`.
+    if let (Some((_, name)), true) = (key.strip_prefix("block").and_then(|key| key.split_once('.')), root.has("column"))
+    {
+        key = format!("column.{name}");
+    }
+    // A record is too strong by the size that it is scaled to, where that is given, or by its samples.
+    if let Some(component) = key.strip_suffix(".file").map(str::to_string) {
+        let given = ["scale", "file", "accel"].into_iter().find_map(|name| root.given(&format!("{component}.{name}")));
+        key = given.unwrap_or(key);
+    }
+    if let Some(given) = root.stand_in(&key) {
+        // The fault is that of the number which follows from the given one.
+        problem = format!("{} = {problem}", key.rsplit('.').next().unwrap_or_default());
+        key = given;
+    }
+    // The default interval stands in no line; the number of its rows follows from the end of the run.
+    if key == "output.dt" && !root.has("output") {
+        key = "solver.t_end".into();
+    }
+    Wrong { place: root.find(&key), key, problem, remedy, cause: Cause::Value }
 }

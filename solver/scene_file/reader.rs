@@ -6,12 +6,12 @@
 use super::column::column;
 use super::derived::Derived;
 use super::error::{SceneFileError, text};
-use super::fault::Fault;
+use super::fault::{Fault, refused};
 use super::record_cache::Records;
 use super::table::{Cause, Place, Table, Wrong};
 use crate::column::{Column, ColumnError};
 use crate::friction::Friction;
-use crate::scene::{Initial, LARGEST, Method, OutputColumn, Restitution, Scene, SceneError, SceneErrors};
+use crate::scene::{Initial, LARGEST, Method, OutputColumn, Restitution, Scene, SceneErrors};
 use std::path::Path;
 
 impl Scene {
@@ -130,26 +130,6 @@ impl Reader<'_> {
         output(root, &mut scene)?;
         Ok(scene)
     }
-}
-
-/// What is wrong where [`Scene::check`] found a fault, at the key that the fault names.
-pub(super) fn refused(root: &Table, fault: &SceneError) -> Wrong {
-    let SceneError { mut key, mut problem, remedy, .. } = fault.clone();
-    // The sizes of the blocks of a `[column]` come from the keys of `[column]`.
-    if let (Some((_, name)), true) = (key.strip_prefix("block").and_then(|key| key.split_once('.')), root.has("column"))
-    {
-        key = format!("column.{name}");
-    }
-    if let Some(given) = root.stand_in(&key) {
-        // The fault is that of the number which follows from the given one.
-        problem = format!("{} = {problem}", key.rsplit('.').next().unwrap_or_default());
-        key = given;
-    }
-    // The default interval stands in no line; the number of its rows follows from the end of the run.
-    if key == "output.dt" && !root.has("output") {
-        key = "solver.t_end".into();
-    }
-    Wrong { place: root.find(&key), key, problem, remedy, cause: Cause::Value }
 }
 
 /// `friction = 0.7`, or `[friction]` with `static` and `kinetic`, each a number or a list.

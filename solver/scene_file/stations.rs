@@ -8,6 +8,7 @@ use super::fault::Fault;
 use super::reader::Reader;
 use super::table::{Table, Wrong};
 use crate::column::Column;
+use crate::names::first_few;
 use rocking_ground::{
     Direction, Excitation, Motion, Record, RecordError, TextOptions, by_number, record_and_component,
 };
@@ -204,13 +205,16 @@ impl Reader<'_> {
             kept.keep_folder(path.clone(), &records);
         }
         let Some((_, files)) = records.iter().find(|(record, _)| *record == own) else {
-            let known: Vec<&str> = records.iter().take(NAMED).map(|(record, _)| record.as_str()).collect();
-            let more = if records.len() > NAMED { ", …" } else { "" };
-            let problem = match known.is_empty() {
-                true => format!("no file of {} is of this record, and there is no other", path.display()),
-                false => {
-                    format!("no file of {} is of this record; name one of {}{more}", path.display(), known.join(", "))
-                }
+            let within = self.beside(name);
+            let problem = match within.is_dir() {
+                true => match named(&records_of(&within).unwrap_or_default()) {
+                    Some(known) => format!("it is a folder; add the name of a record in it: {known}"),
+                    None => "it is a folder, and has no records; give folder and name of a record".into(),
+                },
+                false => match named(&records) {
+                    Some(known) => format!("no file of {} is of this record; name one of {known}", path.display()),
+                    None => format!("no file of {} is of this record, and there is no other", path.display()),
+                },
             };
             return Err(refuse(problem));
         };
@@ -229,5 +233,8 @@ impl Reader<'_> {
     }
 }
 
-/// Largest number of records of a folder that an error lists.
-const NAMED: usize = 8;
+/// Names of the first records of a folder; `None` if it has none.
+fn named(records: &[(String, Vec<String>)]) -> Option<String> {
+    let names = || records.iter().map(|(record, _)| record.clone()).collect();
+    (!records.is_empty()).then(|| first_few(names()))
+}

@@ -2,8 +2,9 @@
 
 use super::error::{SceneFileError, text};
 use super::excitation::set_amplitude;
+use super::fault::refused;
 use super::key_value::Setting;
-use super::reader::{Reader, end_after_free_swing, refused};
+use super::reader::{Reader, end_after_free_swing};
 use super::record_cache::Records;
 use super::stations;
 use super::table::{Cause, Table, Wrong};

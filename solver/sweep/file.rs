@@ -9,6 +9,7 @@ use crate::scene_file::stations::{files_in, records_of};
 use crate::scene_file::table::{Cause, Place, Table, Wrong};
 use crate::scene_file::{FileKind, SceneFileError, Setting, Template, text};
 use rocking_ground::{Direction, record_and_component};
+use std::collections::HashSet;
 use std::path::Path;
 
 /// Largest number of points of a sweep; a larger one is taken for a mistake.
@@ -73,7 +74,7 @@ impl Sweep {
             return Err(root.missing("axes", "add [axes] with a line for each key that varies").into());
         };
         let mut placed = Vec::new();
-        read_axes(&mut table, "", &template, &mut placed)?;
+        read_axes(&mut table, "", &template, combine, &mut placed)?;
         root.close()?;
         if placed.is_empty() {
             return Err(root.wrong("axes", "there is no axis".into(), "add a line for each key that varies").into());
@@ -131,7 +132,8 @@ impl Sweep {
                 place: places[axis].clone(),
                 key: format!("axes.{}", self.axes[axis].key),
                 problem,
-                remedy: "cut the distribution off by `min` and `max`, or choose one without such values".into(),
+                remedy: "choose a distribution without such values; `min` and `max` cut off a normal or lognormal one"
+                    .into(),
                 cause: Cause::Value,
             });
         }
@@ -154,15 +156,27 @@ impl Sweep {
         })
     }
 
-    /// Key that the first point and all of [`Sweep::some_points`] refuse, with problem and remedy. Every row would have this error.
+    /// Key that a scene refuses at every point, with problem and remedy: every row would have this error. The first point and [`Sweep::some_points`] are
+    /// read or, if all of them have other faults, points all over the sweep. A point with another fault, such as a record that cannot be read, says nothing of
+    /// its keys; where the kind of ground motion varies, it may have the kind that takes the key.
     fn misfit(&self) -> Option<(String, String, String)> {
-        let misfit = |index: usize| match self.scene(index).err()? {
-            SceneFileError::Scene { key, problem, remedy, cause: Cause::Key, .. } => Some((key, problem, remedy)),
-            _ => None,
+        let has_kinds = self.axes.iter().any(|axis| axis.key.ends_with(".kind"));
+        let refused_at = |index: usize| match self.scene(index) {
+            Err(SceneFileError::Scene { key, problem, remedy, cause: Cause::Key, .. }) => {
+                Some(Some((key, problem, remedy)))
+            }
+            Err(_) if !has_kinds => None,
+            _ => Some(None),
         };
-        let first = misfit(0)?;
-        let has_same = |index: usize| misfit(index).is_some_and(|(key, ..)| key == first.0);
-        self.some_points().into_iter().all(has_same).then_some(first)
+        let of_first: Vec<_> = std::iter::once(0).chain(self.some_points()).filter_map(refused_at).collect();
+        let found = match of_first.is_empty() {
+            true => self.evenly_spread(POINTS_TRIED).filter_map(refused_at).collect(),
+            false => of_first,
+        };
+        let first = found.first()?.clone()?;
+        let is_same =
+            |found: &Option<(String, String, String)>| found.as_ref().is_some_and(|(key, ..)| *key == first.0);
+        found.iter().all(is_same).then_some(first)
     }
 
     /// The last point, and one for each kind of ground motion.
@@ -184,6 +198,9 @@ impl Sweep {
         samples
     }
 }
+
+/// Largest number of points that are read to find a key that no scene takes.
+const POINTS_TRIED: usize = 64;
 
 /// Whether a fault of a key concerns an axis: the key is that of the axis, or a table above it.
 fn is_of_axis(axis: &str, key: &str) -> bool {
@@ -216,10 +233,20 @@ fn product(lengths: &[usize]) -> Option<usize> {
 }
 
 /// Reads the axes of a table with their places in the file. Axes of tables within have dotted names.
-fn read_axes(table: &mut Table, above: &str, template: &Template, axes: &mut Vec<Placed>) -> Result<(), Wrong> {
+fn read_axes(
+    table: &mut Table,
+    above: &str,
+    template: &Template,
+    combine: Combine,
+    axes: &mut Vec<Placed>,
+) -> Result<(), Wrong> {
     for key in table.keys() {
         let path = if above.is_empty() { key.clone() } else { format!("{above}.{key}") };
         if let Some(values) = table.settings(&key)? {
+            if let Some(twice) = repeated(&values).filter(|_| combine != Combine::Paired) {
+                let problem = format!("{twice} is there twice, and its points would be run and counted twice");
+                return Err(table.wrong(&key, problem, "give each value once"));
+            }
             axes.push((axis(table, &key, &path, values, template)?, table.find(&key), None));
             continue;
         }
@@ -247,11 +274,17 @@ fn read_axes(table: &mut Table, above: &str, template: &Template, axes: &mut Vec
             let remedy = format!("give {{ from, to, steps }}, or a distribution: {}", KINDS.join(", "));
             return Err(table.wrong(&key, problem, &remedy));
         } else {
-            read_axes(&mut inner, &path, template, axes)?;
+            read_axes(&mut inner, &path, template, combine, axes)?;
         }
         inner.close()?;
     }
     Ok(())
+}
+
+/// A value that is there twice.
+fn repeated(values: &[Setting]) -> Option<&Setting> {
+    let mut seen = HashSet::new();
+    values.iter().find(|value| !seen.insert(value.to_string()))
 }
 
 /// Tables of a scene, below which axes may stand.

@@ -331,6 +331,14 @@ impl Sweep {
         }
     }
 
+    /// Numbers of points spread evenly over the sweep, the first and the last among them: all if there are no more than `most`, otherwise as many.
+    pub fn evenly_spread(&self, most: usize) -> impl Iterator<Item = usize> + use<> {
+        let points = self.len();
+        let count = points.min(most);
+        let steps = (count.max(2) - 1) as u128;
+        (0..count).map(move |place| ((points - 1) as u128 * place as u128 / steps) as usize)
+    }
+
     /// The axes that are not sampled.
     pub fn grid(&self) -> &[Axis] {
         self.parts().0

@@ -3,7 +3,7 @@
 //! A table does not say how many points the sweep has. Missing points at the end are therefore noticed only if the sweep is given as
 //! well. Shards of different sweeps differ in their columns, or in the digests beside the tables.
 
-use crate::commands::sweep::{self, OUTCOME, TIME, TableDigest, columns, digest_file, inputs_of};
+use crate::commands::sweep::{OUTCOME, TIME, TableDigest, columns, digest_file, inputs_of};
 use crate::commands::{fractiles, probability};
 use crate::error::{Failure, at};
 use crate::files::{folder_of, make_readable, temporary};
@@ -85,7 +85,7 @@ struct ExpectedSweep<'a> {
 
 impl ExpectedSweep<'_> {
     fn of(file: &Path) -> Result<ExpectedSweep<'_>, Failure> {
-        let sweep = sweep::read(file)?;
+        let sweep = Sweep::from_file(file).map_err(Failure::scene)?;
         Ok(ExpectedSweep { file, columns: columns(&sweep)?, sweep })
     }
 

@@ -5,7 +5,6 @@ use crate::commands::inputs;
 use crate::commands::plot::write;
 use crate::error::{Failure, with_dashes};
 use crate::number::significant;
-use crate::table::Format;
 use crate::terminal::{json, print, warn};
 use crate::text::{printable, shown};
 use crate::{output, plot};
@@ -25,7 +24,8 @@ pub fn record(arguments: &arguments::Record, window: Option<Window>) -> Result<(
     let Some(path) = arguments.file.clone() else {
         return Err(Failure::Trim(arguments.trim.join(" "), "no record file is named".into()));
     };
-    if let Some(out) = arguments.out.as_ref().filter(|out| !matches!(Format::of(out), Ok(Format::Csv))) {
+    let is_csv = |out: &&PathBuf| out.extension().is_none_or(|own| own.eq_ignore_ascii_case("csv"));
+    if let Some(out) = arguments.out.as_ref().filter(|out| !is_csv(out)) {
         return Err(Failure::RecordIsCsv(out.clone()));
     }
     let column = arguments.scene.as_deref().map(inputs::scene).transpose()?.map(|scene| scene.column);

@@ -17,10 +17,9 @@ use crate::terminal::{json, print, warn_of_some};
 use crate::text::{distinct, printable, shown};
 use csv::StringRecord;
 use rocking::Fate;
-use rocking::SceneFileError;
 use rocking::ground::read_file;
 use rocking::run_folder::Digest;
-use rocking::scene_file::{Cause, Setting};
+use rocking::scene_file::Setting;
 use rocking::sweep::{Ask, Cell, CellKind, Field, NOT_DETERMINED, Row, Sweep};
 use serde::Serialize;
 use std::ops::Range;
@@ -30,7 +29,7 @@ use std::path::{Path, PathBuf};
 pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
     let out = request.table();
     let format = Format::of(&out)?;
-    let sweep = read(&request.file)?;
+    let sweep = Sweep::from_file(&request.file).map_err(Failure::scene)?;
     if request.plot.is_some() {
         spectrum::check(request, &sweep)?;
     }
@@ -46,6 +45,14 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
     let digest = TableDigest::of(&sweep, &request.file)?;
     let (table, resumed) = filled(request, &sweep, digest, &target, &columns, &threads)?;
     let (tally, first_error) = Tally::of(&table.part).map_err(at(Failure::Part, &table.part))?;
+    let rows = points(request, &sweep).len();
+    let failure = |first: String, is_kept| Failure::NoResult { table: out.clone(), points: rows, first, is_kept };
+    let first_of_all = first_error.as_ref().filter(|_| tally.errors == rows);
+    // A table of errors takes the place of no other table.
+    if let Some(first) = first_of_all.filter(|_| target.exists()) {
+        table.discard()?;
+        return Err(failure(first.clone(), true));
+    }
     table.close(format, &columns)?;
     // Only now: an interrupted run leaves the table of an earlier one with the digest of that one.
     match request.shard {
@@ -61,7 +68,6 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
     let lost = if made.probabilities { probability::of(&sweep, &out)? } else { Vec::new() };
     let probabilities = probability::write(&sweep, &lost, &out)?;
     let fractiles = if made.fractiles { fractiles::write(&sweep, &out)? } else { String::new() };
-    let rows = points(request, &sweep).len();
     if request.json {
         json(&Counts { tally: &tally, lost })?;
     } else if !request.quiet {
@@ -71,10 +77,7 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
         let failed = failed.map_or(String::new(), |error| format!("the first error: {error}\n"));
         print(&format!("{tally}{failed}{wrote}{probabilities}{fractiles}{drawn}"))?;
     }
-    match first_error {
-        Some(error) if tally.errors == rows => Err(Failure::NoResult(out, rows, error)),
-        _ => Ok(()),
-    }
+    first_of_all.map_or(Ok(()), |first| Err(failure(first.clone(), false)))
 }
 
 /// Which tables are made of the table of a sweep. They need all its points: shards have none.
@@ -141,7 +144,7 @@ pub const POINTS_READ: usize = 1000;
 
 /// The warnings of the ground motions of a sweep, each once. They are those of all points, or of [`POINTS_READ`] evenly spread ones.
 fn warnings(sweep: &Sweep) -> Vec<String> {
-    let scenes = evenly_spread(sweep.len(), POINTS_READ).filter_map(|point| sweep.scene(point).ok());
+    let scenes = sweep.evenly_spread(POINTS_READ).filter_map(|point| sweep.scene(point).ok());
     distinct(scenes.flat_map(|scene| scene.excitation.warnings()))
 }
 
@@ -149,42 +152,6 @@ fn warnings(sweep: &Sweep) -> Vec<String> {
 pub fn threads(count: Option<u16>) -> Result<rayon::ThreadPool, Failure> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(count.map_or(0, usize::from)).build();
     pool.map_err(|error| Failure::Threads(error.to_string()))
-}
-
-/// Reads a sweep, and refuses keys that no scene knows.
-pub fn read(file: &Path) -> Result<Sweep, Failure> {
-    let sweep = Sweep::from_file(file).map_err(Failure::scene)?;
-    check_keys(&sweep)?;
-    Ok(sweep)
-}
-
-/// Number of points that [`check_keys`] reads: the first ones, and as many again spread evenly over the sweep.
-const SAMPLES: usize = 64;
-
-/// Points of a sweep, the first and the last among them: all if there are no more than `most`, otherwise as many, evenly spread.
-pub fn evenly_spread(points: usize, most: usize) -> impl Iterator<Item = usize> {
-    let count = points.min(most);
-    let steps = (count.max(2) - 1) as u128;
-    (0..count).map(move |place| ((points - 1) as u128 * place as u128 / steps) as usize)
-}
-
-/// Refuses a key that no scene knows. `Sweep::from_file` does so by the first scene. If a record of the first scene cannot be read, other scenes
-/// are read here: the sweep is refused if each of them, apart from those with unreadable records, is refused for a key.
-fn check_keys(sweep: &Sweep) -> Result<(), Failure> {
-    let is_of_key = |error: &SceneFileError| matches!(error, SceneFileError::Scene { cause: Cause::Key, .. });
-    if !matches!(sweep.scene(0), Err(SceneFileError::Record { .. } | SceneFileError::Unreadable { .. })) {
-        return Ok(());
-    }
-    let spread = evenly_spread(sweep.len(), SAMPLES).skip(1);
-    let samples = (1..SAMPLES.min(sweep.len() - 1)).chain(spread).map(|index| sweep.scene(index).err());
-    // A record that cannot be read is no reason to refuse a sweep: its rows have errors.
-    let mut others = samples.filter(|error| !matches!(error, Some(SceneFileError::Record { .. })));
-    match others.next() {
-        Some(Some(error)) if is_of_key(&error) && others.all(|other| other.as_ref().is_some_and(is_of_key)) => {
-            Err(Failure::scene(error))
-        }
-        _ => Ok(()),
-    }
 }
 
 /// The files that a sweep is made of: records, the sweep file itself, and the base scene.
@@ -312,7 +279,7 @@ struct Counts<'a> {
 
 /// Number of rows by outcome.
 #[derive(Debug, Default, Serialize)]
-struct Tally {
+pub struct Tally {
     no_uplift: usize,
     rocks: usize,
     overturns: usize,
@@ -320,16 +287,16 @@ struct Tally {
     slides: usize,
     collapses: usize,
     undetermined: usize,
-    errors: usize,
+    pub errors: usize,
     /// Rows of truncated runs: the blocks stand at `t_end`, and the ground moves on or they may overturn. They are also counted by outcome.
     truncated: usize,
-    /// Rows whose outcome is not determined, in sweeps that ask for trust. They are also counted by outcome.
+    /// Rows whose outcome is not determined, in sweeps that ask for trust, where they are also counted by outcome, and in studies.
     not_determined: usize,
 }
 
 impl Tally {
     /// The tally of a table of CSV, and the first error in it.
-    fn of(path: &Path) -> std::io::Result<(Tally, Option<String>)> {
+    pub fn of(path: &Path) -> std::io::Result<(Tally, Option<String>)> {
         let (mut tally, mut first_error) = (Tally::default(), None);
         let mut reader = csv::Reader::from_path(path)?;
         let place = |headers: &StringRecord, column: &str| headers.iter().position(|name| name == column);
@@ -346,6 +313,7 @@ impl Tally {
                 name if name == Fate::Slides.name() => &mut tally.slides,
                 name if name == Fate::Collapses.name() => &mut tally.collapses,
                 name if name == Fate::Undetermined.name() => &mut tally.undetermined,
+                name if name == Fate::NotDetermined.name() => &mut tally.not_determined,
                 _ => {
                     first_error.get_or_insert_with(|| row.iter().next_back().unwrap_or_default().to_string());
                     &mut tally.errors

@@ -92,6 +92,11 @@ impl Growing {
         written.map_err(at(Failure::File, &self.out))
     }
 
+    /// Drops the rows. The table of an earlier run stays as it is.
+    pub fn discard(self) -> Result<(), Failure> {
+        std::fs::remove_file(&self.part).map_err(at(Failure::File, &self.part))
+    }
+
     /// Gives the table its name. At every moment either the hidden file or the table is complete: a sweep that is killed here loses no row.
     #[cfg_attr(not(feature = "parquet"), allow(unused_variables, reason = "CSV has no types"))]
     pub fn close(mut self, format: Format, columns: &[Column]) -> Result<(), Failure> {

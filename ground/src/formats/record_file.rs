@@ -49,6 +49,12 @@ impl Format {
 /// Largest plausible peak in g: no instrument has recorded it on the ground. A file with a larger one is likely to be in another unit.
 const LARGEST_PEAK_IN_G: f64 = 20.0;
 
+/// Largest plausible share of the peak that the last sample has: those of whole records are below a hundredth.
+const LARGEST_LAST_SHARE: f64 = 0.1;
+
+/// Least number of samples of a file whose last sample is compared with its peak: shorter ones are made by hand.
+const LEAST_SAMPLES_OF_SHAKING: usize = 100;
+
 /// Plausible sampling intervals `[s]`: strong motion is sampled at 20 Hz or more, and up to some 1000 Hz.
 const PLAUSIBLE_INTERVALS: std::ops::RangeInclusive<f64> = 1e-4..=0.1;
 
@@ -176,6 +182,13 @@ impl RecordFile {
             self.warnings.push(format!(
                 "a peak of {peak:.1} g is hardly one; are the samples in another unit than {}?",
                 self.unit
+            ));
+        }
+        let share = self.accel.last().map_or(0.0, |last| last.abs()) / self.peak();
+        if self.accel.len() >= LEAST_SAMPLES_OF_SHAKING && share > LARGEST_LAST_SHARE {
+            self.warnings.push(format!(
+                "the last sample is {:.0} % of the peak; does the file end while the ground still shakes?",
+                100.0 * share
             ));
         }
         if !PLAUSIBLE_INTERVALS.contains(&dt) {

@@ -148,9 +148,11 @@ class Record:
         ((measure, value),) = size.items()
         if column is not None and not hasattr(column, "_native"):
             raise TypeError(f"column is of {type(column).__name__}; give a Column")
-        scene = None if column is None else column._native()
         period, damping = optional("sa_period", sa_period), optional("sa_damping", sa_damping)
-        return Record._of(self._record.scaled_to(measure, number(measure, value), number("gravity", gravity), scene, period, damping))
+        unit, own = None, number("gravity", gravity)
+        if column is not None:
+            unit, own = column._native().unit_of(measure, period, damping)
+        return Record._of(self._record.scaled_to(measure, number(measure, value), own, unit, period, damping))
 
     def __add__(self, other: "MotionLike") -> "Motion":
         from ._motion import total

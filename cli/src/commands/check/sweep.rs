@@ -42,7 +42,7 @@ impl ScenesRead {
     fn of(sweep: &Sweep) -> ScenesRead {
         let mut found = ScenesRead::default();
         let mut warnings = Vec::new();
-        for index in sweep::evenly_spread(sweep.len(), sweep::POINTS_READ) {
+        for index in sweep.evenly_spread(sweep::POINTS_READ) {
             found.read += 1;
             match sweep.scene(index) {
                 Ok(scene) => {
@@ -71,7 +71,7 @@ struct AxisFindings {
 
 /// Reads a sweep and explains it.
 pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
-    let sweep = sweep::read(path)?;
+    let sweep = Sweep::from_file(path).map_err(Failure::scene)?;
     let axis = |(place, axis): (usize, &Axis)| {
         let mut values: Vec<&Setting> = axis.values.iter().collect();
         // Samples have no order of their own.
