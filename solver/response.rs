@@ -455,6 +455,10 @@ impl Response {
 
     fn warning_of_generic_modes(&self) -> String {
         let (blocks, most) = (self.peak_theta.len(), crate::mechanics::generated::MAX_BLOCKS);
+        if blocks == 0 {
+            return "some modes ran on the generic equations, which are slower: neither this build nor the program has generated ones for them"
+                .into();
+        }
         if (1..=most).contains(&blocks) {
             // This build has all modes of such a column: other equations were supplied.
             return "the supplied equations lack modes of this column, which ran on the generic ones: slower, and perhaps not what was meant \

@@ -157,15 +157,13 @@ impl Default for SolveOptions {
 }
 
 pub use crate::numerics::ode::control::TIGHTEST_RTOL;
+use crate::numerics::ode::control::{LOOSEST_TOLERANCE, SHORTEST_STEP};
 
 /// Smallest `stick_angle` `[rad]`: lower hops are rounding, and would be taken for separations.
 pub const SMALLEST_STICK_ANGLE: f64 = 1e-20;
 
 /// Smallest `stick_angle` with friction `[rad]`: lower, gaps of angles at landings are rounding, and hops, slides and landings would go on without end.
 pub const SMALLEST_STICK_ANGLE_WITH_FRICTION: f64 = 1e-14;
-
-/// Largest relative and absolute tolerance: beyond, a step may err by more than a block turns.
-const LARGEST_TOLERANCE: f64 = 1e-2;
 
 /// Shortest run `[s]`: below, break points of the ground motion cannot be told apart.
 const SHORTEST_RUN: f64 = 1e-9;
@@ -447,8 +445,8 @@ impl Scene {
                 faults.note(key, format!("{value} is out of range"), "give a finite number above zero");
             }
         }
-        if let Some((key, problem, remedy)) =
-            self.friction.as_ref().and_then(|friction| friction.fault(self.column.len()))
+        for (key, problem, remedy) in
+            self.friction.as_ref().map_or(Vec::new(), |friction| friction.faults(self.column.len()))
         {
             faults.note(key, problem, remedy);
         }
@@ -457,7 +455,7 @@ impl Scene {
         }
         let loosest =
             [("solver.rtol", options.rtol), ("solver.atol", options.atol), ("solver.stick_angle", options.stick_angle)];
-        for (key, value) in loosest.into_iter().filter(|(_, value)| *value > LARGEST_TOLERANCE) {
+        for (key, value) in loosest.into_iter().filter(|(_, value)| *value > LOOSEST_TOLERANCE) {
             faults.note(key, format!("{value} is too loose for an answer"), "give at most 0.01");
         }
         let stacks = (0..self.column.len()).map(|block| self.column.stack(block).frequency_parameter());
@@ -466,6 +464,10 @@ impl Scene {
             let problem =
                 format!("{} s is longer than the time 1/p = {shortest:.4} s in which a block falls", options.step);
             faults.note("solver.step", problem, "give a small part of that time");
+        }
+        if !options.method.has_step_control() && options.step < SHORTEST_STEP * options.t_end {
+            let problem = format!("{:e} s make more than {:e} steps", options.step, 1.0 / SHORTEST_STEP);
+            faults.note("solver.step", problem, "give a longer step, or a shorter solver.t_end");
         }
         if options.overturn_angle > std::f64::consts::PI {
             let problem = format!("{} rad is beyond upside down", options.overturn_angle);
@@ -516,7 +518,9 @@ impl Scene {
     fn check_excitation(&self, faults: &mut Faults) {
         let components = [("horizontal", &self.excitation.horizontal), ("vertical", &self.excitation.vertical)];
         for (component, motion) in components {
-            if let Some((name, value)) = motion.as_ref().and_then(|motion| motion.invalid(LARGEST)) {
+            // The first one is found without allocation: scenes of a sweep are checked a million times.
+            let Some(motion) = motion.as_ref().filter(|motion| motion.invalid(LARGEST).is_some()) else { continue };
+            for (name, value) in motion.all_invalid(LARGEST) {
                 let remedy = match name.rsplit('.').next() {
                     Some("gamma") => "give a number up to 1e6, above 0 (of mavroeidis-papageorgiou, above 1)",
                     Some("file") => "its largest acceleration is that; scale it to 1e6 m/s² at most",
@@ -569,7 +573,7 @@ impl Scene {
                     "give friction, or leave it out",
                 );
             }
-            if let Some((missing, _)) = places.iter().find(|(_, list)| list.is_empty()) {
+            for (missing, _) in places.iter().filter(|(_, list)| list.is_empty()) {
                 faults.note(missing, format!("it is missing beside {given}"), "give x, y, vx and vy together");
             }
             if self.column.slides().iter().any(|slide| *slide != 0.0) {

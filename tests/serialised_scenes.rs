@@ -71,3 +71,36 @@ fn a_check_names_all_faults_once() {
     assert_eq!(keys, ["solver.t_end", "solver.rtol", "friction.static", "initial.theta"]);
     assert_eq!(errors.to_string().lines().count(), 4, "{errors}");
 }
+
+/// Several faults of one motion, of both coefficients of friction, and all lists that are missing.
+#[test]
+fn a_check_goes_on_after_the_first_fault_of_a_kind() {
+    let mut scene = scene();
+    scene.excitation.horizontal = Some(Motion::SinePulse { amplitude: f64::NAN, omega: -1.0, start: f64::INFINITY });
+    scene.excitation.vertical = Some(Motion::Sum {
+        terms: vec![
+            Motion::HalfSine { amplitude: 1.0, omega: 0.0, start: 0.0 },
+            Motion::HalfSine { amplitude: f64::NAN, omega: 1.0, start: 0.0 },
+        ],
+    });
+    scene.friction = Some(rocking::Friction::new(vec![-1.0], vec![f64::NAN]));
+    scene.initial.x = vec![0.0; scene.column.len()];
+    (scene.options.method, scene.options.step) = (Method::RungeKutta4, 1e-300);
+    let errors = scene.check().expect_err("faults");
+    let keys: Vec<&str> = errors.faults().iter().map(|fault| fault.key.as_str()).collect();
+    for key in [
+        "friction.static",
+        "friction.kinetic",
+        "solver.step",
+        "excitation.horizontal.amplitude",
+        "excitation.horizontal.omega",
+        "excitation.horizontal.start",
+        "excitation.vertical.term[1].omega",
+        "excitation.vertical.term[2].amplitude",
+        "initial.y",
+        "initial.vx",
+        "initial.vy",
+    ] {
+        assert!(keys.contains(&key), "{key} is not among {keys:?}");
+    }
+}

@@ -206,8 +206,12 @@ impl Pattern {
     /// let (label, mirrored) = Pattern::from_signs(&[-1, 0, 0]).mode().unwrap();
     /// assert_eq!((label.to_string().as_str(), mirrored), ("1.5", true));
     /// ```
+    ///
+    /// # Panics
+    /// For more than 120 interfaces.
     #[inline]
     pub fn mode(&self) -> Option<(ModeLabel, bool)> {
+        assert!(self.0.len() <= ModeNumber::MOST_INTERFACES, "{} interfaces", self.0.len());
         let lowest = self.lowest_open()?;
         let mirrored = self.is_mirrored();
         let above = self.0[lowest + 1..].iter();
@@ -247,7 +251,11 @@ pub struct Linkage {
 
 impl Linkage {
     /// The linkage whose interface `i` (from zero) is open where bit `i` of `mask` is set.
+    ///
+    /// # Panics
+    /// If there are more blocks than bits.
     pub fn from_mask(blocks: usize, mask: usize) -> Linkage {
+        assert!(blocks <= usize::BITS as usize, "{blocks} blocks");
         Linkage { open: (0..blocks).map(|interface| mask >> interface & 1 == 1).collect() }
     }
 
@@ -275,7 +283,11 @@ impl Linkage {
 }
 
 /// The moving linkages of a column: masks `1 .. 2^N`, in order.
+///
+/// # Panics
+/// If there are as many blocks as bits, or more.
 pub fn linkages(blocks: usize) -> impl Iterator<Item = Linkage> {
+    assert!(blocks < usize::BITS as usize, "{blocks} blocks");
     (1..1usize << blocks).map(move |mask| Linkage::from_mask(blocks, mask))
 }
 

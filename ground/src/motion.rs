@@ -272,10 +272,25 @@ impl Motion {
             };
             return terms.iter().enumerate().find_map(term);
         }
-        let is_bad = |(_, value, above): &Parameter| value.is_nan() || value.abs() > largest || value <= above;
-        let first = |parts: [&[Parameter]; 2]| parts.into_iter().flatten().find(|parameter| is_bad(parameter)).copied();
+        let is_bad = |parameter: &&Parameter| is_invalid(parameter, largest);
+        let first = |parts: [&[Parameter]; 2]| parts.into_iter().flatten().find(is_bad).copied();
         let (name, value, _) = self.with_parameters(first)?;
         Some((name.into(), value))
+    }
+
+    /// Names and values of all parameters that [`Motion::invalid`] refuses.
+    pub fn all_invalid(&self, largest: f64) -> Vec<(String, f64)> {
+        if let Motion::Sum { terms } = self {
+            let of_term = |(index, term): (usize, &Motion)| {
+                let named = move |(name, value)| (format!("term[{}].{name}", index + 1), value);
+                term.all_invalid(largest).into_iter().map(named)
+            };
+            return terms.iter().enumerate().flat_map(of_term).collect();
+        }
+        self.with_parameters(|parts| {
+            let bad = parts.into_iter().flatten().filter(|parameter| is_invalid(parameter, largest));
+            bad.map(|(name, value, _)| (name.to_string(), *value)).collect()
+        })
     }
 
     /// The result of a function of the parameters. They come in two slices, without allocation: scenes of a sweep are checked a million times.
@@ -341,6 +356,11 @@ fn phase_of_type_c(cycles: u32) -> f64 {
     let turns = (f64::from(cycles) + 0.5) * PI;
     // The slope of the right side in φ is about 1/turns²: each round reduces the error by more than ten at n = 1, by more beyond.
     (0..30).fold(0.0, |phase, _| libm::atan(1.0 / (turns - phase)))
+}
+
+/// Whether a parameter is not finite, exceeds `largest` in magnitude, or is not above its lower bound.
+fn is_invalid((_, value, above): &Parameter, largest: f64) -> bool {
+    value.is_nan() || value.abs() > largest || value <= above
 }
 
 #[cfg(test)]

@@ -22,7 +22,7 @@ use std::f64::consts::TAU;
 pub struct Synthetic {
     /// Peak acceleration `[m/s²]`.
     pub pga: f64,
-    /// `[s]`
+    /// `[s]`, rounded to a whole number of sampling intervals.
     pub duration: f64,
     /// `[s]`
     pub dt: f64,
@@ -66,7 +66,8 @@ impl Synthetic {
     /// ```
     ///
     /// # Errors
-    /// [`RecordError::OutOfRange`] for a parameter that is not a finite number above zero, or a duration below 1 sampling interval or of 1e7 and more.
+    /// [`RecordError::OutOfRange`] for a parameter that is not a finite number above zero, or a duration below 1 sampling interval or of 1e7 and more;
+    /// [`RecordError::Interval`], [`RecordError::Acceleration`] or [`RecordError::Silent`] for parameters so extreme that no record follows.
     pub fn record(&self) -> Result<Record, RecordError> {
         let numbers = [
             ("pga", self.pga),

@@ -120,7 +120,7 @@ impl Sweep {
                     };
                     Names::of(words).column(cells().map(|cell| if let Cell::Word(word) = cell { word } else { "" }))
                 }
-                (_, CellKind::Text) => {
+                (_, _) => {
                     let text = |cell| match cell {
                         Cell::Word(word) => Some(word.to_string()),
                         Cell::Error(error) => Some(error.to_string()),

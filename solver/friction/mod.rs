@@ -71,22 +71,31 @@ impl Friction {
         self.fixed.iter().copied().fold(f64::INFINITY, f64::min)
     }
 
-    /// What is wrong with the coefficients of a column of so many blocks: key, problem and remedy.
-    pub(crate) fn fault(&self, blocks: usize) -> Option<(&'static str, String, &'static str)> {
+    /// What is wrong with the coefficients of a column of so many blocks: key, problem and remedy of each fault.
+    pub(crate) fn faults(&self, blocks: usize) -> Vec<(&'static str, String, &'static str)> {
+        let mut faults = Vec::new();
         for (key, list) in [("friction.static", &self.fixed), ("friction.kinetic", &self.kinetic)] {
             if list.len() != 1 && list.len() != blocks {
                 let problem = format!("{} number(s) for {blocks} interface(s)", list.len());
-                return Some((key, problem, "give one for all, or one per interface, base first"));
-            }
-            if let Some(value) = list.iter().find(|value| !(0.0..=LARGEST_COEFFICIENT).contains(*value)) {
-                return Some((key, format!("{value:?} is out of range"), "give a number from zero to 1e100"));
+                faults.push((key, problem, "give one for all, or one per interface, base first"));
+            } else if let Some(value) = list.iter().find(|value| !(0.0..=LARGEST_COEFFICIENT).contains(*value)) {
+                faults.push((key, format!("{value:?} is out of range"), "give a number from zero to 1e100"));
             }
         }
+        if !faults.is_empty() {
+            return faults;
+        }
         let Coefficients { fixed, kinetic } = self.per_interface(blocks);
-        let above = fixed.iter().zip(&kinetic).position(|(fixed, kinetic)| kinetic > fixed)?;
-        let problem =
-            format!("{} is above the static coefficient, {}, of interface {}", kinetic[above], fixed[above], above + 1);
-        Some(("friction.kinetic", problem, "give a kinetic coefficient no larger than the static one"))
+        if let Some(above) = fixed.iter().zip(&kinetic).position(|(fixed, kinetic)| kinetic > fixed) {
+            let problem = format!(
+                "{} is above the static coefficient, {}, of interface {}",
+                kinetic[above],
+                fixed[above],
+                above + 1
+            );
+            faults.push(("friction.kinetic", problem, "give a kinetic coefficient no larger than the static one"));
+        }
+        faults
     }
 
     /// The coefficients of each interface.

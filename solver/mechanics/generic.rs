@@ -26,6 +26,9 @@ pub struct GenericMode {
 
 impl GenericMode {
     /// The mode of a pattern.
+    ///
+    /// # Panics
+    /// If the pattern is not of as many interfaces as the column. [`crate::Mode::generic`] refuses it.
     pub fn new(column: &Column, pattern: &Pattern) -> GenericMode {
         let (moment, lever) = moments_and_levers(column, pattern);
         GenericMode {

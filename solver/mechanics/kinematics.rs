@@ -91,6 +91,9 @@ fn minus(a: Vec2, b: Vec2) -> Vec2 {
 impl<'a> Posture<'a> {
     /// The geometry where block `i` is turned by `theta[i]` `[rad]`, base first, length N; blocks of one link have equal
     /// angles.
+    ///
+    /// # Panics
+    /// If pattern or angles are not as many as the blocks.
     pub fn new(column: &'a Column, pattern: &Pattern, theta: &[f64]) -> Posture<'a> {
         let size = Any(column.len());
         Posture::of(size, column, &pattern.0, &Turn::all(size, theta))
@@ -421,6 +424,9 @@ pub struct Outline {
 /// assert!((block.corners[0][1] - 0.8 * 0.1f64.sin()).abs() < 1e-15);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+///
+/// # Panics
+/// If pattern or angles are not as many as the blocks.
 pub fn outlines(column: &Column, pattern: &Pattern, theta: &[f64]) -> Vec<Outline> {
     let posture = Posture::new(column, pattern, theta);
     let outline = |(index, block): (usize, &Block)| {

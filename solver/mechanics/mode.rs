@@ -5,7 +5,7 @@
 
 use super::dynamics::{ContactForce, Dynamics, Energy, Ground, Interfaces, StateVector};
 use super::integrator::{ExplicitSteps, Integrator, TaylorSteps};
-use crate::numerics::ode::control::{Part, TIGHTEST_RTOL, Tolerance};
+use crate::numerics::ode::control::{LOOSEST_TOLERANCE, Part, SHORTEST_STEP, TIGHTEST_RTOL, Tolerance};
 use crate::numerics::ode::methods::Method;
 use rocking_codegen::pattern::Pattern;
 use rocking_ground::Segment;
@@ -88,9 +88,9 @@ pub enum IntegrateError {
         /// Value given.
         value: f64,
     },
-    /// A tolerance or a step is not a finite number above zero, `rtol` is below [`TIGHTEST_RTOL`], or the step is so small that it hardly advances the time.
+    /// A tolerance or a step is not a finite number above zero, `rtol` is below [`TIGHTEST_RTOL`], a tolerance above [`LOOSEST_TOLERANCE`], or the step is so small that it hardly advances the time.
     #[error(
-        "{name} = {value:e} is out of range; give a finite number above zero, for rtol at least {TIGHTEST_RTOL:e}, for step at least {SHORTEST_STEP:e} of the time"
+        "{name} = {value:e} is out of range; give a finite number above zero, for rtol at least {TIGHTEST_RTOL:e}, for tolerances at most {LOOSEST_TOLERANCE}, for step at least {SHORTEST_STEP:e} of the time"
     )]
     Options {
         /// Name of the field of [`IntegrateOptions`].
@@ -301,22 +301,19 @@ impl Mode {
 impl IntegrateOptions {
     /// Refuses tolerances, and steps with which an integration over these times would hardly end.
     fn check(&self, times: &[f64]) -> Result<(), IntegrateError> {
-        let shortest = SHORTEST_STEP * times.last().zip(times.first()).map_or(0.0, |(last, first)| last - first);
+        let span = times.last().zip(times.first()).map_or(0.0, |(last, first)| last - first);
+        let shortest = if self.method.has_step_control() { 0.0 } else { SHORTEST_STEP * span };
         let sizes = [
-            ("rtol", self.rtol, TIGHTEST_RTOL),
-            ("atol", self.atol, f64::MIN_POSITIVE),
-            ("step", self.step, if self.method.has_step_control() { 0.0 } else { shortest }.max(f64::MIN_POSITIVE)),
+            ("rtol", self.rtol, TIGHTEST_RTOL..=LOOSEST_TOLERANCE),
+            ("atol", self.atol, f64::MIN_POSITIVE..=LOOSEST_TOLERANCE),
+            ("step", self.step, shortest.max(f64::MIN_POSITIVE)..=f64::MAX),
         ];
-        let is_size = |value: f64, least: f64| value.is_finite() && value >= least;
-        match sizes.into_iter().find(|(_, value, least)| !is_size(*value, *least)) {
+        match sizes.into_iter().find(|(_, value, range)| !range.contains(value)) {
             Some((name, value, _)) => Err(IntegrateError::Options { name, value }),
             None => Ok(()),
         }
     }
 }
-
-/// Shortest step of methods without step control, as a share of the time integrated. Shorter ones end at no time that anybody waits for.
-const SHORTEST_STEP: f64 = 1e-9;
 
 /// Refuses times that do not ascend, and segments that do not cover them.
 fn check_times(times: &[f64], segments: &[Segment]) -> Result<(), IntegrateError> {

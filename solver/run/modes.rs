@@ -126,7 +126,10 @@ impl Modes {
         let source = scene.options.dynamics;
         let generated = match source {
             DynamicsSource::Generated => (generated::EQUATIONS.mode)(&scene.column, pattern, ground),
-            DynamicsSource::Supplied(equations) => (equations.mode)(&scene.column, pattern, ground),
+            // Equations of another pattern would move the column in a way that its contacts do not allow.
+            DynamicsSource::Supplied(equations) => {
+                (equations.mode)(&scene.column, pattern, ground).filter(|mode| mode.pattern() == pattern)
+            }
             DynamicsSource::Generic => None,
         };
         let is_generic = generated.is_none() && source != DynamicsSource::Generic;

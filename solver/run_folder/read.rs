@@ -194,7 +194,9 @@ impl Results {
         if !self.looks.is_empty() && self.looks.len() != length {
             return Some(format!("`looks` are not of {length} block(s)"));
         }
-        if let Some((key, problem, _)) = self.friction.as_ref().and_then(|friction| friction.fault(length)) {
+        if let Some((key, problem, _)) =
+            self.friction.as_ref().and_then(|friction| friction.faults(length).into_iter().next())
+        {
             return Some(format!("`{key}`: {problem}"));
         }
         if response.validity.as_ref().is_some_and(|validity| validity.contacts.len() != length) {

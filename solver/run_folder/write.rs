@@ -165,7 +165,8 @@ impl Folder {
         }
     }
 
-    /// Writes the files of a run: none is put in place before all are written.
+    /// Writes the files of a run: none is put in place before all are written. [`Results::read`](super::Results::read) reads runs that have rows and peaks:
+    /// those with `output_dt` or `output_times`, of which everything is requested.
     ///
     /// # Errors
     /// [`FolderError::Write`]

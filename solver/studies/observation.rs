@@ -16,7 +16,8 @@ pub struct Observation {
     pub fate: Option<Fate>,
     /// Whether an interface opened.
     pub has_uplift: bool,
-    /// Largest `|θ|` of each block, over the slenderness of the stack from this block up, base first, dimensionless.
+    /// Largest `|θ|` of each block, over the slenderness of the stack from this block up, base first, dimensionless. Peaks that are not a number say nothing
+    /// of states of peaks.
     pub peaks: Vec<f64>,
     /// Slide of each interface at the end, base first `[m]`; empty without friction.
     pub residual_slides: Vec<f64>,
@@ -159,7 +160,9 @@ impl LimitState {
     pub(super) fn is_observed(&self, run: &Observation) -> bool {
         match *self {
             LimitState::Uplift | LimitState::Overturned => true,
-            LimitState::Peak { block, .. } => run.peaks.len() >= block.unwrap_or(1),
+            LimitState::Peak { block, .. } => {
+                run.peaks.len() >= block.unwrap_or(1) && !run.peaks.iter().any(|peak| peak.is_nan())
+            }
             LimitState::Slide { .. } => !run.residual_slides.is_empty(),
         }
     }

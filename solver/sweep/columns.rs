@@ -8,6 +8,7 @@ use crate::scene_file::SceneFileError;
 
 /// What a column of the table of a sweep holds. Blocks and interfaces are counted from 0, base first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Field {
     /// Index of the point.
     Index,
@@ -54,6 +55,7 @@ pub const NOT_DETERMINED: &str = "not-determined";
 
 /// What the cells of a column hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum CellKind {
     /// Whole numbers.
     Whole,
@@ -69,6 +71,7 @@ pub enum CellKind {
 
 /// The content of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Cell<'r> {
     /// Nothing to show: the run failed or does not have the quantity, or the cell belongs to the point.
     Blank,

@@ -277,8 +277,9 @@ impl Columns {
 
     /// The run of a row, counted from zero. The error says what is wrong with a cell, after the number of the row.
     fn observation(&self, row: &StringRecord, number: usize) -> Result<Observation, String> {
-        let wrong =
-            |place: usize, wanted: &str| format!(", column `{}`: `{}` is not {wanted}; correct the cell", self.names[place], &row[place]);
+        let wrong = |place: usize, wanted: &str| {
+            format!(", column `{}`: `{}` is not {wanted}; correct the cell", self.names[place], &row[place])
+        };
         let level: Option<f64> = row[self.level].parse().ok();
         let level = level.filter(|level| level.is_finite() && *level > 0.0);
         // Columns of blocks that this row's column does not have are blank, at the end.

@@ -190,7 +190,7 @@ pub fn columns(sweep: &Sweep) -> Result<Vec<Column>, Failure> {
             (_, CellKind::Whole) => Kind::Whole,
             (_, CellKind::Number) => Kind::Number,
             (_, CellKind::Truth) => Kind::Truth,
-            (_, CellKind::Word | CellKind::Text) => Kind::Text,
+            (_, _) => Kind::Text,
         };
         let make = if full { Column::full } else { Column::sparse };
         make(sweep.heading(field), kind)
@@ -206,12 +206,12 @@ fn cell(row: &Row, field: Field, ask: Ask) -> String {
             Setting::Text(text) => printable(text).into_owned(),
             setting => setting.to_string(),
         },
-        (_, Cell::Blank) => String::new(),
         (_, Cell::Whole(number)) => number.to_string(),
         (_, Cell::Number(number)) => format!("{number:?}"),
         (_, Cell::Truth(truth)) => truth.to_string(),
         (_, Cell::Word(word)) => word.into(),
         (_, Cell::Error(error)) => printable(&error.to_string()).into_owned(),
+        (_, _) => String::new(),
     }
 }
 

@@ -57,13 +57,16 @@ const DIGITS: usize = 40;
 /// `3^DIGITS`
 const BASE: u64 = 3u64.pow(DIGITS as u32);
 
-/// Groups of a number: enough for 120 interfaces.
+/// Groups of a number.
 const GROUPS: usize = 3;
 
 /// Power of ten by which a number is divided to be written in decimals.
 const DECIMALS: u64 = 1_000_000_000_000_000_000;
 
 impl ModeNumber {
+    /// Number of interfaces whose modes have numbers.
+    pub(super) const MOST_INTERFACES: usize = GROUPS * DIGITS;
+
     /// A number; `None` for zero.
     pub fn new(number: u64) -> Option<ModeNumber> {
         let rank = number.checked_sub(1)?;

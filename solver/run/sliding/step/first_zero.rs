@@ -279,7 +279,7 @@ impl<O: Output> Step<'_, '_, O> {
     /// A place at which a guard has left zero by more than `clear`, upwards before it comes back, and the end of what is known of it: `limit`, or the first
     /// place found at which it is below. If it does not leave zero, the place is far from the start, or the guard is not above `clear` there.
     fn leaving(&mut self, value: &dyn Fn(&mut Self, f64) -> f64, limit: f64, clear: f64) -> [f64; 2] {
-        let (mut near, mut end) = (NEAR_START * limit, limit);
+        let (mut near, mut end) = ((NEAR_START * limit).max(f64::MIN_POSITIVE), limit);
         while near < LARGEST_START * limit && value(self, near).abs() <= clear {
             near *= 4.0;
         }
