@@ -156,8 +156,8 @@ impl Default for SolveOptions {
     }
 }
 
-pub use crate::numerics::ode::control::TIGHTEST_RTOL;
-use crate::numerics::ode::control::{LOOSEST_TOLERANCE, SHORTEST_STEP};
+use crate::numerics::ode::control::SHORTEST_STEP;
+pub use crate::numerics::ode::control::{LOOSEST_TOLERANCE, TIGHTEST_RTOL};
 
 /// Smallest `stick_angle` `[rad]`: lower hops are rounding, and would be taken for separations.
 pub const SMALLEST_STICK_ANGLE: f64 = 1e-20;
