@@ -248,6 +248,22 @@ fn every_command_that_a_document_shows_exists() {
     assert!(missing.is_empty(), "no document shows {missing:?}");
 }
 
+#[test]
+fn every_example_that_a_document_or_a_script_runs_exists() {
+    let scripts = files("benches", "sh").into_iter().map(|path| (path.clone(), read(&path)));
+    let mut count = 0;
+    for (path, text) in documents().into_iter().chain(scripts) {
+        for call in text.split("--example ").skip(1) {
+            let name: String = call.chars().take_while(|c| c.is_ascii_alphanumeric() || "_-".contains(*c)).collect();
+            let folders = ["examples", "codegen/examples", "ground/examples", "cli/examples"];
+            let is_there = |folder: &&str| root().join(folder).join(format!("{name}.rs")).is_file();
+            assert!(folders.iter().any(is_there), "{}: --example {name}", path.display());
+            count += 1;
+        }
+    }
+    assert!(count > 1, "{count} examples");
+}
+
 /// Keys in the first columns of the reference's tables are keys that the reader knows, and the other way round.
 #[test]
 fn the_reference_of_scene_files_has_all_keys() {
