@@ -74,7 +74,10 @@ impl Friction {
     /// What is wrong with the coefficients of a column of so many blocks: key, problem and remedy of each fault.
     pub(crate) fn faults(&self, blocks: usize) -> Vec<(&'static str, String, &'static str)> {
         let mut faults = Vec::new();
-        for (key, list) in [("friction.static", &self.fixed), ("friction.kinetic", &self.kinetic)] {
+        // One coefficient for both has one fault.
+        let is_other = |(key, list): &(&str, &Vec<f64>)| *key == "friction.static" || **list != self.fixed;
+        let lists = [("friction.static", &self.fixed), ("friction.kinetic", &self.kinetic)];
+        for (key, list) in lists.into_iter().filter(is_other) {
             if list.len() != 1 && list.len() != blocks {
                 let problem = format!("{} number(s) for {blocks} interface(s)", list.len());
                 faults.push((key, problem, "give one for all, or one per interface, base first"));

@@ -32,6 +32,16 @@ fn an_opening_begins_no_slide_that_need_not_begin() {
     }
 }
 
+/// The top block parts, and the contact below, which loses its force in the same instant, slides on: that was called a flight.
+#[test]
+fn a_contact_that_slides_on_without_force_does_not_part() {
+    let response = run(&scene(include_str!("jams_and_edges/unloaded.toml")));
+    let states =
+        |states: &Option<rocking::joints::Joints>| states.as_ref().map(ToString::to_string).unwrap_or_default();
+    let event = response.events.iter().find(|event| states(&event.states_after) == "(-,-<,f)").expect("it slides");
+    assert_eq!((states(&event.states_before).as_str(), event.kind), ("(-,-,f)", rocking::EventKind::Slip));
+}
+
 /// Five and six blocks have more combinations of states than are tried one by one: the runs ended as undetermined.
 #[test]
 fn jams_of_many_blocks_have_an_answer() {

@@ -367,6 +367,9 @@ impl<'p> PendingTransition<'p> {
         }
         let Some(&first) = changed.first() else { return };
         let was_still = before.lies_still();
+        // What loses its force may slide on instead of parting.
+        let parts = changed.iter().any(|&interface| after[interface] == Joint::Free);
+        let kind = if kind == EventKind::Flight && !parts { EventKind::Slip } else { kind };
         let kind = match (kind, before.joints[first], after[first]) {
             (EventKind::Opening, ..) if was_still => EventKind::Start,
             (EventKind::Jump | EventKind::Slip | EventKind::Stick, _, Joint::Free) => EventKind::Flight,
