@@ -156,7 +156,6 @@ impl Default for SolveOptions {
     }
 }
 
-use crate::numerics::ode::control::SHORTEST_STEP;
 pub use crate::numerics::ode::control::{LOOSEST_TOLERANCE, TIGHTEST_RTOL};
 
 /// Smallest `stick_angle` `[rad]`: lower hops are rounding, and would be taken for separations.
@@ -164,6 +163,9 @@ pub const SMALLEST_STICK_ANGLE: f64 = 1e-20;
 
 /// Smallest `stick_angle` with friction `[rad]`: lower, gaps of angles at landings are rounding, and hops, slides and landings would go on without end.
 pub const SMALLEST_STICK_ANGLE_WITH_FRICTION: f64 = 1e-14;
+
+/// Largest number of steps of a method without step control: hours of computation.
+const MOST_STEPS: f64 = 1e12;
 
 /// Shortest run `[s]`: below, break points of the ground motion cannot be told apart.
 const SHORTEST_RUN: f64 = 1e-9;
@@ -465,8 +467,8 @@ impl Scene {
                 format!("{} s is longer than the time 1/p = {shortest:.4} s in which a block falls", options.step);
             faults.note("solver.step", problem, "give a small part of that time");
         }
-        if !options.method.has_step_control() && options.step < SHORTEST_STEP * options.t_end {
-            let problem = format!("{:e} s make more than {:e} steps", options.step, 1.0 / SHORTEST_STEP);
+        if !options.method.has_step_control() && options.step * MOST_STEPS < options.t_end {
+            let problem = format!("{:e} s make more than {MOST_STEPS:e} steps", options.step);
             faults.note("solver.step", problem, "give a longer step, or a shorter solver.t_end");
         }
         if options.overturn_angle > std::f64::consts::PI {

@@ -5,7 +5,7 @@
 
 use super::dynamics::{ContactForce, Dynamics, Energy, Ground, Interfaces, StateVector};
 use super::integrator::{ExplicitSteps, Integrator, TaylorSteps};
-use crate::numerics::ode::control::{LOOSEST_TOLERANCE, Part, SHORTEST_STEP, TIGHTEST_RTOL, Tolerance};
+use crate::numerics::ode::control::{LOOSEST_TOLERANCE, Part, TIGHTEST_RTOL, Tolerance};
 use crate::numerics::ode::methods::Method;
 use rocking_codegen::pattern::Pattern;
 use rocking_ground::Segment;
@@ -314,6 +314,9 @@ impl IntegrateOptions {
         }
     }
 }
+
+/// Shortest step of methods without step control, as a share of the time integrated. Shorter ones end at no time that anybody waits for.
+const SHORTEST_STEP: f64 = 1e-9;
 
 /// Refuses times that do not ascend, and segments that do not cover them.
 fn check_times(times: &[f64], segments: &[Segment]) -> Result<(), IntegrateError> {

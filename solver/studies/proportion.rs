@@ -55,17 +55,24 @@ fn beta_quantile(a: f64, b: f64, share: f64) -> f64 {
     }
 }
 
-/// Regularised incomplete beta function `I_x(a, b)`, from 1 up `a` and `b`: its continued fraction (Didonato & Morris 1992, ACM TOMS 18; DLMF 8.17.22),
-/// evaluated by Lentz's method until it changes no more, on the side of the mean on which it converges.
+/// Regularised incomplete beta function `I_x(a, b)`, from 1 up `a` and `b`.
 fn beta_share(a: f64, b: f64, x: f64) -> f64 {
     if x > (a + 1.0) / (a + b + 2.0) {
-        return 1.0 - beta_share(b, a, 1.0 - x);
+        1.0 - beta_share_below_mean(b, a, 1.0 - x)
+    } else {
+        beta_share_below_mean(a, b, x)
     }
+}
+
+/// [`beta_share`] below the mean, where its continued fraction (Didonato & Morris 1992, ACM TOMS 18; DLMF 8.17.22) converges in some `√(a + b)` terms;
+/// evaluated by Lentz's method until it changes no more.
+fn beta_share_below_mean(a: f64, b: f64, x: f64) -> f64 {
+    const MOST_TERMS: u32 = 1_000_000;
     let above_zero = |value: f64| if value.abs() < f64::MIN_POSITIVE { f64::MIN_POSITIVE } else { value };
     let mut c = 1.0;
     let mut d = 1.0 / above_zero(1.0 - (a + b) * x / (a + 1.0));
     let mut fraction = d;
-    for m in (1..).map(f64::from) {
+    for m in (1..=MOST_TERMS).map(f64::from) {
         let place = a + 2.0 * m;
         let even = m * (b - m) * x / ((place - 1.0) * place);
         let odd = -(a + m) * (a + b + m) * x / (place * (place + 1.0));

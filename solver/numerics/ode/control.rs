@@ -5,9 +5,6 @@ use crate::numerics::state_vector::StateVector;
 /// Tightest relative tolerance: below it, rounding alone exceeds the error asked for.
 pub const TIGHTEST_RTOL: f64 = 1e-14;
 
-/// Shortest step of methods without step control, as a share of the time integrated. Shorter ones end at no time that anybody waits for.
-pub const SHORTEST_STEP: f64 = 1e-9;
-
 /// Loosest relative and absolute tolerance: beyond, a step may err by more than a block turns.
 pub const LOOSEST_TOLERANCE: f64 = 1e-2;
 
