@@ -164,8 +164,8 @@ pub const SMALLEST_STICK_ANGLE: f64 = 1e-20;
 /// Smallest `stick_angle` with friction `[rad]`: lower, gaps of angles at landings are rounding, and hops, slides and landings would go on without end.
 pub const SMALLEST_STICK_ANGLE_WITH_FRICTION: f64 = 1e-14;
 
-/// Largest number of steps of a method without step control: hours of computation.
-const MOST_STEPS: f64 = 1e12;
+/// Largest number of steps of a method without step control: with more, a step does not advance the time in double precision.
+const MOST_STEPS: f64 = 1e15;
 
 /// Shortest run `[s]`: below, break points of the ground motion cannot be told apart.
 const SHORTEST_RUN: f64 = 1e-9;
