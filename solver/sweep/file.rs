@@ -161,22 +161,21 @@ impl Sweep {
     /// its keys; where the kind of ground motion varies, it may have the kind that takes the key.
     fn misfit(&self) -> Option<(String, String, String)> {
         let has_kinds = self.axes.iter().any(|axis| axis.key.ends_with(".kind"));
-        let refused_at = |index: usize| match self.scene(index) {
+        let keys_at = |index: usize| match self.scene(index) {
             Err(SceneFileError::Scene { key, problem, remedy, cause: Cause::Key, .. }) => {
-                Some(Some((key, problem, remedy)))
+                KeysOfPoint::Refused { key, problem, remedy }
             }
-            Err(_) if !has_kinds => None,
-            _ => Some(None),
+            Err(_) if !has_kinds => KeysOfPoint::Hidden,
+            _ => KeysOfPoint::Taken,
         };
-        let of_first: Vec<_> = std::iter::once(0).chain(self.some_points()).filter_map(refused_at).collect();
-        let found = match of_first.is_empty() {
-            true => self.evenly_spread(POINTS_TRIED).filter_map(refused_at).collect(),
-            false => of_first,
-        };
-        let first = found.first()?.clone()?;
-        let is_same =
-            |found: &Option<(String, String, String)>| found.as_ref().is_some_and(|(key, ..)| *key == first.0);
-        found.iter().all(is_same).then_some(first)
+        let is_known = |keys: &KeysOfPoint| !matches!(keys, KeysOfPoint::Hidden);
+        let mut known: Vec<_> = std::iter::once(0).chain(self.some_points()).map(keys_at).filter(is_known).collect();
+        if known.is_empty() {
+            known = self.evenly_spread(POINTS_TRIED).map(keys_at).filter(is_known).collect();
+        }
+        let Some(KeysOfPoint::Refused { key: first, problem, remedy }) = known.first() else { return None };
+        let is_same = |keys: &KeysOfPoint| matches!(keys, KeysOfPoint::Refused { key, .. } if key == first);
+        known.iter().all(is_same).then(|| (first.clone(), problem.clone(), remedy.clone()))
     }
 
     /// The last point, and one for each kind of ground motion.
@@ -197,6 +196,19 @@ impl Sweep {
         }
         samples
     }
+}
+
+/// Whether the scene of a point takes the keys of its axes.
+enum KeysOfPoint {
+    Taken,
+    /// One of them is refused.
+    Refused {
+        key: String,
+        problem: String,
+        remedy: String,
+    },
+    /// Another fault hides it.
+    Hidden,
 }
 
 /// Largest number of points that are read to find a key that no scene takes.
