@@ -7,6 +7,7 @@ mod error;
 mod event_loop;
 mod expected_event;
 mod force_cache;
+mod log;
 mod modes;
 mod multi_sample_step;
 mod needs;

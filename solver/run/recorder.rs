@@ -1,6 +1,7 @@
-//! The recorder: the only writer of rows, events, peaks, forces and times in modes.
+//! The recorder: the only writer of the log of a run without friction, and of its validity and times in modes.
 
 use super::certainty::verdict;
+use super::log::{Extremes, Log, Rows, RowsMark};
 use super::modes::Modes;
 use super::needs::Needs;
 use super::panel_forces::PanelForces;
@@ -9,38 +10,20 @@ use super::state::State;
 use super::stretch::{Over, Panel, Stretch};
 use super::transition::Transition;
 use crate::contact::noticeable_impulses;
-use crate::mechanics::dynamics::ContactForce;
 use crate::numerics::per_block::{PerBlock, Size, for_size};
 use crate::response::{Event, EventKind, Impulse, ModeName, Response, Sample, Separation, StopReason};
 use rocking_codegen::pattern::Pattern;
-use rocking_ground::Segment;
 use std::collections::BTreeMap;
-
-/// Room made for events when the first one comes.
-pub(super) const USUAL_EVENTS: usize = 32;
 
 /// The record of a run under way.
 pub(crate) struct Recorder {
-    samples: Vec<Sample>,
-    next_sample: usize,
-    /// Segment of the row recorded last.
-    sample_segment: usize,
+    log: Log,
     /// Pattern of the present motion.
     pattern: Pattern,
-    /// Largest `|θ|` so far, per block `[rad]`.
-    peak_theta: PerBlock<f64>,
     /// Largest sizes of gaps per interface, where they are recorded `[rad]`.
     largest_gaps: PerBlock<f64>,
-    /// Largest friction demand `|T|/N` so far, per interface, dimensionless.
-    friction_demand: PerBlock<f64>,
-    /// Largest friction demand of impulses at impacts so far, per interface, dimensionless.
-    impulse_friction_demand: PerBlock<f64>,
-    /// Smallest normal force so far, per interface `[N]`.
-    min_normal_force: PerBlock<f64>,
     /// Friction demands and normal forces up to the point of no return, with times; `None` unless forces are recorded.
     needs: Option<Needs>,
-    events: Vec<Event>,
-    impacts: usize,
     separations: Vec<Separation>,
     /// Time at which the present motion was entered `[s]`.
     entered_at: f64,
@@ -50,12 +33,8 @@ pub(crate) struct Recorder {
 
 /// A place in a record, back to which it can be undone; times in modes, largest gaps and needs stay.
 pub(crate) struct Mark {
-    samples: usize,
-    sample_segment: usize,
-    peak_theta: PerBlock<f64>,
-    friction_demand: PerBlock<f64>,
-    impulse_friction_demand: PerBlock<f64>,
-    min_normal_force: PerBlock<f64>,
+    rows: RowsMark,
+    extremes: Extremes,
     events: usize,
     impacts: usize,
     separations: usize,
@@ -64,25 +43,17 @@ pub(crate) struct Mark {
 impl Recorder {
     /// The record of a run that begins with a state; `rows` rows have been recorded before.
     pub fn new(problem: &Problem, start: &State, rows: usize) -> Recorder {
-        // Lists of what is not recorded are empty.
-        let list = |is_recorded: bool, entry: f64| match is_recorded {
-            true => PerBlock::filled(entry, start.theta.len()),
-            false => PerBlock::new(),
-        };
-        let (is_recorded, records_forces) = (problem.is_recorded(), problem.records_forces());
+        let (blocks, records_forces) = (start.theta.len(), problem.records_forces());
         let mut recorder = Recorder {
-            samples: Vec::new(),
-            next_sample: rows,
-            sample_segment: start.segment,
+            log: Log {
+                rows: Rows::starting_in(start.segment, rows),
+                events: Vec::new(),
+                impacts: 0,
+                extremes: Extremes::new(blocks, problem.is_recorded(), records_forces),
+            },
             pattern: start.pattern.clone(),
-            peak_theta: list(is_recorded, 0.0),
-            largest_gaps: list(problem.records_gaps, 0.0),
-            friction_demand: list(records_forces, 0.0),
-            impulse_friction_demand: list(records_forces, 0.0),
-            min_normal_force: list(records_forces, f64::INFINITY),
+            largest_gaps: if problem.records_gaps { PerBlock::filled(0.0, blocks) } else { PerBlock::new() },
             needs: records_forces.then(|| Needs::new(&problem.scene.column, start.t, &start.theta)),
-            events: Vec::new(),
-            impacts: 0,
             separations: Vec::new(),
             entered_at: start.t,
             times: Vec::new(),
@@ -99,28 +70,22 @@ impl Recorder {
 
     /// The present place in the record.
     pub fn mark(&self) -> Mark {
+        let Log { rows, events, impacts, extremes } = &self.log;
         Mark {
-            samples: self.samples.len(),
-            sample_segment: self.sample_segment,
-            peak_theta: self.peak_theta.clone(),
-            friction_demand: self.friction_demand.clone(),
-            impulse_friction_demand: self.impulse_friction_demand.clone(),
-            min_normal_force: self.min_normal_force.clone(),
-            events: self.events.len(),
-            impacts: self.impacts,
+            rows: rows.mark(),
+            extremes: extremes.clone(),
+            events: events.len(),
+            impacts: *impacts,
             separations: self.separations.len(),
         }
     }
 
     /// Forgets what has been recorded since a mark.
     pub fn undo(&mut self, mark: Mark) {
-        self.next_sample -= self.samples.len() - mark.samples;
-        self.samples.truncate(mark.samples);
-        self.events.truncate(mark.events);
+        self.log.rows.undo(mark.rows);
+        self.log.events.truncate(mark.events);
         self.separations.truncate(mark.separations);
-        (self.sample_segment, self.impacts) = (mark.sample_segment, mark.impacts);
-        (self.peak_theta, self.min_normal_force) = (mark.peak_theta, mark.min_normal_force);
-        (self.friction_demand, self.impulse_friction_demand) = (mark.friction_demand, mark.impulse_friction_demand);
+        (self.log.impacts, self.log.extremes) = (mark.impacts, mark.extremes);
     }
 
     /// Largest sizes of gaps so far, per interface `[rad]`; empty unless they are recorded.
@@ -130,12 +95,12 @@ impl Recorder {
 
     /// Largest friction demands of forces so far, per interface.
     pub fn friction_demand(&self) -> &[f64] {
-        &self.friction_demand
+        &self.log.extremes.friction_demand
     }
 
     /// Smallest normal forces so far, per interface `[N]`.
     pub fn min_normal_force(&self) -> &[f64] {
-        &self.min_normal_force
+        &self.log.extremes.min_normal_force
     }
 
     /// Records a stretch.
@@ -143,11 +108,11 @@ impl Recorder {
         if !problem.is_recorded() {
             return;
         }
-        while let Some(t) = self.next_row(problem).filter(|t| *t < stretch.end) {
+        while let Some(t) = self.log.rows.next_time(problem).filter(|t| *t < stretch.end) {
             let (theta, omega) = stretch.inside.state_at(t);
             self.record_row(problem, t, theta.to_vec(), omega.to_vec());
         }
-        stretch.inside.raise_peaks(&mut self.peak_theta);
+        stretch.inside.raise_peaks(&mut self.log.extremes.peak_theta);
         if !self.largest_gaps.is_empty() {
             stretch.inside.raise_gaps(&mut self.largest_gaps);
         }
@@ -163,7 +128,8 @@ impl Recorder {
         if !problem.records_forces() {
             return;
         }
-        let Recorder { needs, peak_theta, friction_demand, min_normal_force, .. } = self;
+        let Recorder { needs, log, .. } = self;
+        let Extremes { peak_theta, friction_demand, min_normal_force, .. } = &mut log.extremes;
         let known = (&mut friction_demand[..], &mut min_normal_force[..]);
         match needs {
             Some(needs) => {
@@ -177,20 +143,10 @@ impl Recorder {
         }
     }
 
-    /// The next output time `[s]`, if there is one up to the end.
-    fn next_row(&self, problem: &Problem) -> Option<f64> {
-        problem.rows.get(self.next_sample)
-    }
-
     fn record_row(&mut self, problem: &Problem, t: f64, theta: Vec<f64>, omega: Vec<f64>) {
-        let cursor = &mut self.sample_segment;
-        while *cursor + 1 < problem.ground.len() && problem.ground[*cursor].end <= t {
-            *cursor += 1;
-        }
-        let Segment { horizontal, vertical, .. } = &problem.ground[*cursor];
-        let ground = [horizontal.value(t), vertical.value(t)];
+        let ground = self.log.rows.ground(problem, t);
         let (slide, gap) = (Vec::new(), Vec::new());
-        self.samples.push(Sample {
+        self.log.rows.push(Sample {
             t,
             theta,
             omega,
@@ -200,13 +156,10 @@ impl Recorder {
             gap,
             blocks: Vec::new(),
         });
-        self.next_sample += 1;
     }
 
     fn record_angles(&mut self, theta: &[f64]) {
-        for (peak, theta) in self.peak_theta.iter_mut().zip(theta) {
-            *peak = if theta.abs() > *peak { theta.abs() } else { *peak };
-        }
+        self.log.extremes.add_angles(theta);
         let mut below = 0.0;
         for (largest, theta) in self.largest_gaps.iter_mut().zip(theta) {
             *largest = largest.max((theta - std::mem::replace(&mut below, *theta)).abs());
@@ -219,7 +172,7 @@ impl Recorder {
         if transition.decision.separation {
             self.separations.push(Separation { t: before.t, during: kind });
         }
-        self.impacts += usize::from(transition.is_event && kind == EventKind::Impact);
+        self.log.impacts += usize::from(transition.is_event && kind == EventKind::Impact);
         if !problem.is_recorded() {
             return;
         }
@@ -227,21 +180,12 @@ impl Recorder {
             self.pattern.clone_from(&after.pattern);
         }
         if problem.records_forces() {
-            self.record_impulses(&transition.decision.impulses);
+            for (interface, impulse) in noticeable_impulses(&transition.decision.impulses) {
+                self.log.extremes.add_impulse(interface, impulse);
+            }
         }
         if transition.is_event {
-            if self.events.is_empty() {
-                self.events.reserve(USUAL_EVENTS);
-            }
-            for_size!(before.theta.len(), size => self.events.push(event(size, before, transition, after)));
-        }
-    }
-
-    /// Records the friction that the impulses of an impact ask for.
-    fn record_impulses(&mut self, impulses: &[ContactForce]) {
-        for (interface, impulse) in noticeable_impulses(impulses) {
-            let demand = &mut self.impulse_friction_demand[interface];
-            *demand = demand.max(impulse.friction_demand());
+            for_size!(before.theta.len(), size => self.log.push_event(event(size, before, transition, after)));
         }
     }
 
@@ -269,7 +213,7 @@ impl Recorder {
         };
         let blocks = last.theta.len();
         if !status.overturns() {
-            while let Some(t) = self.next_row(problem) {
+            while let Some(t) = self.log.rows.next_time(problem) {
                 let (theta, omega) = match status {
                     StopReason::AtRest => (vec![0.0; blocks], vec![0.0; blocks]),
                     _ => (last.theta.to_vec(), last.omega.to_vec()),
@@ -304,28 +248,12 @@ impl Recorder {
         };
         let separations = self.separations.iter().map(|separation| separation.t);
         let validity = self.needs.map(|needs| needs.finish(status.overturns(), end, separations));
-        Response {
-            status,
-            t_final: last.t,
-            truncated: false,
-            may_overturn: false,
-            overturned_block: None,
-            collapsed_block: None,
-            samples: self.samples,
-            events: self.events,
-            impacts: self.impacts,
-            peak_theta: self.peak_theta.to_vec(),
-            largest_gaps: self.largest_gaps.to_vec(),
-            time_in_mode,
-            friction_demand: self.friction_demand.to_vec(),
-            impulse_friction_demand: self.impulse_friction_demand.to_vec(),
-            min_normal_force: self.min_normal_force.to_vec(),
-            separations: self.separations,
-            validity,
-            work: modes.take_work(),
-            used_generic: modes.used_generic(),
-            sliding: None,
-        }
+        let mut response = self.log.into_response(status, last.t);
+        response.largest_gaps = self.largest_gaps.to_vec();
+        response.time_in_mode = time_in_mode;
+        (response.separations, response.validity) = (self.separations, validity);
+        (response.work, response.used_generic) = (modes.take_work(), modes.used_generic());
+        response
     }
 }
 

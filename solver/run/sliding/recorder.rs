@@ -15,11 +15,10 @@ use crate::numerics::per_block::PerBlock;
 use crate::response::{
     BlockAtEvent, BlockState, ContactTimes, Event, Impulse, ModeName, Response, Sample, SlidingReport, StopReason, Work,
 };
+use crate::run::log::{Extremes, Log, Rows, raise};
 use crate::run::problem::Problem;
-use crate::run::recorder::USUAL_EVENTS;
 use crate::run::rest;
 use rocking_codegen::pattern::Pattern;
-use rocking_ground::Segment;
 use std::collections::BTreeMap;
 
 /// The inside of a stretch.
@@ -65,21 +64,9 @@ const LIGHT_SHARE: f64 = 1e-9;
 pub struct SlidingRecorder<'p> {
     problem: &'p Problem<'p>,
     friction: &'p Coefficients,
-    samples: Vec<Sample>,
-    /// Segment of the row recorded last.
-    sample_segment: usize,
+    log: Log,
     /// End of the step that was read last, NaN after a change of state `[s]`.
     read_until: f64,
-    events: Vec<Event>,
-    impacts: usize,
-    /// Largest `|θ|` so far, per block `[rad]`.
-    peak_theta: Vec<f64>,
-    /// Largest friction demand `|T|/N` so far, per interface, dimensionless.
-    friction_demand: Vec<f64>,
-    /// Largest friction demand of impulses at impacts so far, per interface, dimensionless.
-    impulse_friction_demand: Vec<f64>,
-    /// Smallest normal force so far, per interface `[N]`.
-    min_normal_force: Vec<f64>,
     /// Normal force above which a contact has a friction demand, per interface `[N]`.
     least_normal_force: PerBlock<f64>,
     time_in_mode: BTreeMap<String, f64>,
@@ -96,26 +83,21 @@ impl<'p> SlidingRecorder<'p> {
     pub fn new(problem: &'p Problem<'p>, friction: &'p Coefficients, start: &SlidingState) -> SlidingRecorder<'p> {
         let Configuration { theta, slide, .. } = &start.configuration;
         let blocks = theta.len();
-        let sizes = |values: &[f64]| values.iter().map(|value| value.abs()).collect();
+        let is_recorded = problem.is_recorded();
+        let mut extremes = Extremes::new(blocks, is_recorded, is_recorded);
+        extremes.add_angles(theta);
         SlidingRecorder {
             problem,
             friction,
-            samples: Vec::new(),
-            sample_segment: 0,
+            log: Log { rows: Rows::starting_in(0, 0), events: Vec::new(), impacts: 0, extremes },
             read_until: f64::NAN,
-            events: Vec::with_capacity(if problem.is_recorded() { USUAL_EVENTS } else { 0 }),
-            impacts: 0,
-            peak_theta: sizes(theta),
-            friction_demand: vec![0.0; blocks],
-            impulse_friction_demand: vec![0.0; blocks],
-            min_normal_force: vec![f64::INFINITY; blocks],
             least_normal_force: (0..blocks)
                 .map(|i| LIGHT_SHARE * problem.scene.column.mass_above(i) * problem.scene.column.gravity())
                 .collect(),
             time_in_mode: BTreeMap::new(),
             used_generic: false,
             report: SlidingReport {
-                peak_slide: sizes(slide),
+                peak_slide: slide.iter().map(|slide| slide.abs()).collect(),
                 way_slid: vec![0.0; blocks],
                 times: vec![ContactTimes::default(); blocks],
                 flights: vec![0; blocks],
@@ -152,13 +134,11 @@ impl<'p> SlidingRecorder<'p> {
             let was_free = before.joints[interface] == Joint::Free && !has_landed;
             *flights += usize::from(after.joints[interface] == Joint::Free && !was_free);
         }
-        if let Some(impulses) = impulses {
-            self.impacts += 1;
-            self.impulses(impulses);
-        }
+        self.log.impacts += usize::from(impulses.is_some());
         if !self.problem.is_recorded() {
             return;
         }
+        self.impulses(impulses.as_deref().unwrap_or_default());
         let (old, new): (Pattern, Pattern) = (before.pattern(), after.pattern());
         let numbers: Vec<usize> = interfaces.iter().map(|interface| interface + 1).collect();
         let mut event = Event {
@@ -184,7 +164,7 @@ impl<'p> SlidingRecorder<'p> {
         let [before, after] = self.write_configurations(&mut event, [before, after]).map(|energy| energy.kinetic);
         let share_lost = if before > 0.0 { (before - after) / before } else { 0.0 };
         event.energy_lost = impulses.is_some().then_some(share_lost);
-        self.events.push(event);
+        self.log.push_event(event);
     }
 
     /// Writes the configurations before and after an event into it: states, slides and blocks. Returns the energies then.
@@ -206,14 +186,13 @@ impl<'p> SlidingRecorder<'p> {
     fn impulses(&mut self, impulses: &[Impulse]) {
         let impulses: PerBlock<ContactForce> = impulses.iter().map(ContactForce::from).collect();
         for (interface, impulse) in noticeable_impulses(&impulses).filter(|(_, impulse)| impulse.normal > 0.0) {
-            let demand = &mut self.impulse_friction_demand[interface];
-            *demand = demand.max(impulse.friction_demand());
+            self.log.extremes.add_impulse(interface, impulse);
         }
     }
 
     /// Number of rows so far.
     pub fn rows(&self) -> usize {
-        self.samples.len()
+        self.log.rows.len()
     }
 
     /// Records the response of a part in which everything sticks: its column with slides, and the states at its two ends. The work of the ground in it
@@ -221,7 +200,8 @@ impl<'p> SlidingRecorder<'p> {
     pub fn append(&mut self, column: &Column, [from, until]: [&SlidingState; 2], response: Response) {
         self.work.add(&response.work);
         self.used_generic |= response.used_generic;
-        self.impacts += response.impacts;
+        self.log.impacts += response.impacts;
+        self.log.extremes.add_part(&response);
         // Whether blocks rocked before others slid belongs to the outcome.
         for (mode, time) in response.time_in_mode {
             *self.time_in_mode.entry(mode).or_insert(0.0) += time;
@@ -239,7 +219,7 @@ impl<'p> SlidingRecorder<'p> {
             self.row(sample.t, &snapshot);
         }
         let mut lost = 0.0;
-        self.events.reserve(response.events.len());
+        self.log.events.reserve(response.events.len());
         for mut event in response.events {
             let before = sticking(&event.before, &event.theta, &event.omega_before);
             let after = sticking(&event.after, &event.theta, &event.omega_after);
@@ -256,22 +236,17 @@ impl<'p> SlidingRecorder<'p> {
                 }
             }
             self.impulses(&event.impulses);
-            self.events.push(event);
+            self.log.push_event(event);
         }
         self.report.impact_losses += lost;
         let work = lost + energy(column, &until.configuration) - energy(column, &from.configuration);
         self.report.ground_work += work;
         self.report.ground_exchange += work.abs();
-        raise(&mut self.peak_theta, &response.peak_theta);
-        raise(&mut self.friction_demand, &response.friction_demand);
-        for (all, own) in self.min_normal_force.iter_mut().zip(&response.min_normal_force) {
-            *all = all.min(*own);
-        }
     }
 
     /// A snapshot of a column in which everything sticks, with its accelerations and forces.
     fn snapshot(&mut self, t: f64, configuration: Configuration) -> Snapshot<'p> {
-        let segment = self.segment_of_row(t);
+        let segment = self.log.rows.segment(self.problem, t);
         let from = SlidingState { t, segment: 0, configuration };
         let mut smooth = Smooth::new(self.problem, self.friction, &from);
         smooth.segment = segment;
@@ -314,7 +289,7 @@ impl<'p> SlidingRecorder<'p> {
         if !self.problem.is_recorded() {
             return;
         }
-        while let Some(t) = self.next_row().filter(|t| *t < until) {
+        while let Some(t) = self.log.rows.next_time(self.problem).filter(|t| *t < until) {
             self.row(t, inside.snapshot(t.max(from), true));
         }
         rest::visit_forces(column, &self.problem.ground[segment], [from, until], &mut |forces, _| {
@@ -324,10 +299,11 @@ impl<'p> SlidingRecorder<'p> {
 
     /// Records the force of a contact.
     fn contact(&mut self, interface: usize, contact: &ContactForce) {
-        self.min_normal_force[interface] = self.min_normal_force[interface].min(contact.normal);
+        let Extremes { min_normal_force, friction_demand, .. } = &mut self.log.extremes;
+        min_normal_force[interface] = min_normal_force[interface].min(contact.normal);
         if contact.normal > self.least_normal_force[interface] {
             let demand = contact.tangential.abs() / contact.normal;
-            self.friction_demand[interface] = self.friction_demand[interface].max(demand);
+            friction_demand[interface] = friction_demand[interface].max(demand);
         }
     }
 
@@ -336,10 +312,10 @@ impl<'p> SlidingRecorder<'p> {
         if !self.problem.is_recorded() {
             return;
         }
-        while let Some(t) = self.next_row().filter(|t| *t < until) {
+        while let Some(t) = self.log.rows.next_time(self.problem).filter(|t| *t < until) {
             self.row(t, inside.snapshot(t.max(from), true));
         }
-        inside.peaks(until, &mut self.peak_theta);
+        inside.peaks(until, &mut self.log.extremes.peak_theta);
         inside.nodes(until, &mut |node| self.node(segment, joints, node));
         // A step that follows another one begins with the forces at its end.
         let begins = from != self.read_until;
@@ -381,24 +357,8 @@ impl<'p> SlidingRecorder<'p> {
         self.contacts(joints, contacts);
     }
 
-    /// The next output time `[s]`, if there is one up to the end.
-    fn next_row(&self) -> Option<f64> {
-        self.problem.rows.get(self.samples.len())
-    }
-
-    /// The segment of the ground motion at a row; rows come in order of time.
-    fn segment_of_row(&mut self, t: f64) -> &'p Segment {
-        let ground = self.problem.ground;
-        while self.sample_segment + 1 < ground.len() && ground[self.sample_segment].end <= t {
-            self.sample_segment += 1;
-        }
-        &ground[self.sample_segment]
-    }
-
     fn row(&mut self, t: f64, snapshot: &Snapshot) {
         let (Snapshot { configuration: now, answer, .. }, chain) = (snapshot, snapshot.chain());
-        let segment = self.segment_of_row(t);
-        let Segment { horizontal, vertical, .. } = segment;
         let gap = |interface: usize| match now.joints[interface] {
             Joint::Free => contacts::gap(self.column(), now, interface),
             _ => 0.0,
@@ -416,11 +376,12 @@ impl<'p> SlidingRecorder<'p> {
                 _ => ContactForce::default(),
             },
         };
-        self.samples.push(Sample {
+        let ground = self.log.rows.ground(self.problem, t);
+        self.log.rows.push(Sample {
             t,
             theta: now.theta.to_vec(),
             omega: now.omega.to_vec(),
-            ground: [horizontal.value(t), vertical.value(t)],
+            ground,
             pattern: now.pattern(),
             slide: (0..blocks).map(|interface| slide(chain, now, interface)).collect(),
             gap: gaps.to_vec(),
@@ -459,13 +420,13 @@ impl<'p> SlidingRecorder<'p> {
         let mut smooth = Smooth::new(self.problem, self.friction, &end);
         let mut snapshot = smooth.snapshot(end.configuration);
         // A run that ends at its start still has the row of its start.
-        if self.samples.is_empty() && self.next_row() == Some(0.0) {
+        if self.log.rows.is_empty() && self.log.rows.next_time(self.problem) == Some(0.0) {
             smooth.answer(end.t, &mut snapshot);
             self.row(end.t, &snapshot);
         }
         if !matches!(status, StopReason::Overturned | StopReason::Collapsed | StopReason::Undetermined) {
-            while let Some(t) = self.next_row() {
-                (snapshot.answer, smooth.segment) = (None, self.segment_of_row(t));
+            while let Some(t) = self.log.rows.next_time(self.problem) {
+                (snapshot.answer, smooth.segment) = (None, self.log.rows.segment(self.problem, t));
                 smooth.answer(t, &mut snapshot);
                 self.row(t, &snapshot);
             }
@@ -476,41 +437,21 @@ impl<'p> SlidingRecorder<'p> {
             self.report.energy_change = energy(self.column(), now) - self.energy_at_start;
         }
         let may_overturn = status == StopReason::EndOfTime && self.may_overturn(now);
-        let recorded = |list: Vec<f64>| if self.problem.is_recorded() { list } else { Vec::new() };
-        Response {
-            status,
-            t_final: end.t,
-            truncated: false,
-            may_overturn,
-            overturned_block: if let RunEnd::Overturned(block) = stop { Some(block + 1) } else { None },
-            collapsed_block: if let RunEnd::Collapsed(block) = stop { Some(block + 1) } else { None },
-            samples: self.samples,
-            events: self.events,
-            impacts: self.impacts,
-            peak_theta: recorded(self.peak_theta),
-            largest_gaps: Vec::new(),
-            time_in_mode: self.time_in_mode,
-            friction_demand: recorded(self.friction_demand),
-            impulse_friction_demand: recorded(self.impulse_friction_demand),
-            min_normal_force: recorded(self.min_normal_force),
-            separations: Vec::new(),
-            validity: None,
-            work: self.work,
-            used_generic: self.used_generic,
-            sliding: Some(self.report),
+        let mut response = self.log.into_response(status, end.t);
+        response.may_overturn = may_overturn;
+        match stop {
+            RunEnd::Overturned(block) => response.overturned_block = Some(block + 1),
+            RunEnd::Collapsed(block) => response.collapsed_block = Some(block + 1),
+            _ => {}
         }
+        (response.time_in_mode, response.sliding) = (self.time_in_mode, Some(self.report));
+        (response.work, response.used_generic) = (self.work, self.used_generic);
+        response
     }
 }
 
 /// Way of a slide, as a share of the column's size, up to which nothing has slid but rounding.
 const CRITICAL_WAY: f64 = 1e-13;
-
-/// Raises the largest magnitudes so far by those of other values.
-fn raise(largest: &mut [f64], values: &[f64]) {
-    for (largest, value) in largest.iter_mut().zip(values) {
-        *largest = largest.max(value.abs());
-    }
-}
 
 /// An impulse in the axes of the lower face, with its moment about the contact's centre, as that of a corner: with the moment about the corner, `place`
 /// to the right of the centre `[m]`, in the axes of the face that carries it, which is turned by `turn` against the lower one `[rad]`.
