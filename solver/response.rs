@@ -342,13 +342,16 @@ pub struct Response {
     pub status: StopReason,
     /// When the run ended `[s]`: at overturning or collapse, at coming to rest for good, when what is requested is certain, or at `t_end`.
     pub t_final: f64,
-    /// Whether the column stands at the end of the run and the ground still moves after `t_end`, or the column [may overturn](Self::may_overturn)
-    /// on the ground at rest: the outcome then holds up to `t_end` only.
+    /// Whether the column stands at the end of the run and the ground still moves after `t_end`, or the column [may overturn](Self::may_overturn) or
+    /// [slides on](Self::slides_on) on the ground at rest: the outcome then holds up to `t_end` only.
     #[serde(default)]
     pub truncated: bool,
     /// Whether the ground rests from `t_end` on and the column that stands then is past its balance, or has the energy to get there: it may be falling.
     #[serde(default)]
     pub may_overturn: bool,
+    /// Whether the ground rests from `t_end` on and blocks slide or fly then: their slides at the end are not final. Only with friction.
+    #[serde(default)]
+    pub slides_on: bool,
     /// The block whose angle reached, or is certain to reach, the overturning angle first, from 1.
     pub overturned_block: Option<usize>,
     /// The block that slid or flew off its support, from 1; only with friction.
@@ -362,6 +365,9 @@ pub struct Response {
     pub events: Vec<Event>,
     /// Number of impacts.
     pub impacts: usize,
+    /// Number of impacts at which the scene's restitution was left out (docs/book/model.md, sections 5 and 17).
+    #[serde(default)]
+    pub without_restitution: usize,
     /// Largest magnitude of each block's angle `[rad]`; empty where nothing but the outcome is requested.
     pub peak_theta: Vec<f64>,
     /// Time spent in each mode `[s]`; a pattern and its mirror image are one mode. `rest` counts as a mode, in which a column that has come to
@@ -398,6 +404,11 @@ pub struct Response {
 }
 
 impl Response {
+    /// Whether `t_end` cuts the ground motion of a column that stands then.
+    pub fn cuts_ground_motion(&self) -> bool {
+        self.truncated && !self.may_overturn && !self.slides_on
+    }
+
     /// Time of overturning `[s]`; `None` unless the run ended with it.
     pub fn overturned_at(&self) -> Option<f64> {
         (self.status == StopReason::Overturned).then_some(self.t_final)
@@ -445,12 +456,31 @@ impl Response {
                 self.t_final
             )
         });
+        let slides_on = self.slides_on.then(|| {
+            format!(
+                "the run ends at solver.t_end = {} s while blocks slide or fly: their slides are not final (give a later t_end)",
+                self.t_final
+            )
+        });
         let of_contacts = match &self.sliding {
             Some(sliding) => sliding.warnings(self.status, self.t_final),
             None => self.warnings_of_parting(),
         };
         let generic = self.used_generic.then(|| self.warning_of_generic_modes());
-        open.into_iter().chain(of_contacts).chain(generic).collect()
+        let plastic = (self.without_restitution > 0).then(|| self.warning_of_restitution());
+        open.into_iter().chain(slides_on).chain(of_contacts).chain(plastic).chain(generic).collect()
+    }
+
+    /// Impacts that are plastic in a scene with restitution.
+    fn warning_of_restitution(&self) -> String {
+        let reasons = match &self.sliding {
+            Some(_) => "something slides, friction is too low, or the impact would gain energy or turn a block back",
+            None => "the impact would gain energy or turn a block back",
+        };
+        format!(
+            "at {} of {} impact(s) restitution was left out, as {reasons}: these are plastic",
+            self.without_restitution, self.impacts
+        )
     }
 
     fn warning_of_generic_modes(&self) -> String {

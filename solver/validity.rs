@@ -30,6 +30,9 @@ pub struct Validity {
 pub struct ContactNeeds {
     /// Largest `|T| / N`, dimensionless; infinite if a tangential force acts without compression.
     pub friction_demand: Extreme,
+    /// Largest `|P_T| / P_N` of the impulses at impacts, dimensionless; infinite where a contact transmits no compression.
+    #[serde(default)]
+    pub impulse_friction_demand: Extreme,
     /// Smallest normal force `[N]`.
     pub min_normal_force: Extreme,
     /// Time in which the normal force is below zero.
@@ -81,7 +84,12 @@ impl Validity {
         self.separations == 0 && self.contacts.iter().all(is_pressed) && self.largest_demand().is_finite()
     }
 
-    /// Largest friction demand of all contacts, dimensionless.
+    /// Largest friction demand of all contacts at impacts, dimensionless.
+    pub fn largest_impulse_demand(&self) -> f64 {
+        self.contacts.iter().fold(0.0, |largest, contact| contact.impulse_friction_demand.value.max(largest))
+    }
+
+    /// Largest friction demand of all contacts between impacts, dimensionless.
     pub fn largest_demand(&self) -> f64 {
         self.contacts.iter().fold(0.0, |largest, contact| contact.friction_demand.value.max(largest))
     }

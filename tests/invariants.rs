@@ -199,3 +199,29 @@ fn a_run_without_recorded_forces_is_the_same_run() {
     assert!(bare.friction_demand.is_empty() && bare.min_normal_force.is_empty());
     assert!(bare.work.rhs_calls < recorded.work.rhs_calls);
 }
+
+/// What restitution leaves out (docs/book/model.md, section 5) is counted and said: a factor with which a block by itself would gain energy acts at no impact.
+#[test]
+fn restitution_that_is_left_out_is_counted() {
+    let column = Column::new(vec![Block::rectangle(0.2, 1.0, 1.0)], 9.81).expect("valid");
+    let housner = column.housner_ratio();
+    let run = |factor: f64| {
+        let mut scene = Scene::new(column.clone());
+        scene.restitution = Restitution::Factors(vec![factor]);
+        scene.initial.theta = vec![0.1];
+        scene.options.t_end = 5.0;
+        simulate(&scene).expect("solved")
+    };
+    let says = |response: &rocking::Response| response.warnings().iter().any(|warning| warning.contains("restitution"));
+    let plastic = run(1.0);
+    for (factor, left_out) in [(1.0, false), (0.9, false), (0.999 / housner, false), (1.001 / housner, true)] {
+        let response = run(factor);
+        assert!(response.impacts > 4, "{factor}");
+        assert_eq!(response.without_restitution, if left_out { response.impacts } else { 0 }, "{factor}");
+        assert_eq!(says(&response), left_out, "{factor}");
+        assert_eq!(
+            response.peak_theta == plastic.peak_theta && response.events == plastic.events,
+            left_out || factor == 1.0
+        );
+    }
+}

@@ -94,7 +94,7 @@ fn captions_count_the_runs_that_end_before_the_ground() {
     let scene = SCENE.replace("sine-pulse", "harmonic").replace("t_end = 10.0", "t_end = 1.0");
     folder.write("base.toml", scene);
     let told = folder.succeeds("sweep sweep.toml --plot f.svg");
-    assert!(told.contains(" 3 of 3 runs are cut at solver.t_end: the ground still moves there, or"), "{told}");
+    assert!(told.contains(" 3 of 3 runs are cut at solver.t_end: the ground still moves there, the column"), "{told}");
     folder.write("sweep.toml", "scene = \"base.toml\"\n[axes]\nomega_p = [4.0, 5.0]\namplitude_uplift = [0.5, 1.1]\n");
     let told = folder.succeeds("sweep sweep.toml --plot f.svg");
     assert_eq!(told.matches("4 of 4 runs are cut at solver.t_end").count(), 2, "{told}");

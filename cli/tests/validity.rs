@@ -94,4 +94,28 @@ fn sweeps_carry_what_contacts_need() {
     assert!((demands[0] - 0.5 * 0.4 / 1.56).abs() < 1e-3 && forces[0] == 1.0, "{table:?}");
     assert!(demands[2] > demands[1] && forces[2] < 1.0, "{table:?}");
     assert_eq!(table.row(2).number("separations"), 0.0);
+    // A block that rocks by itself: its impacts ask for 3t / (4 + t²), which is less than its swings do; at rest nothing strikes.
+    let (slenderness, at_impacts) = (0.4f64 / 1.56, table.numbers("mu_demand_at_impacts"));
+    let expected = 3.0 * slenderness / (4.0 + slenderness * slenderness);
+    assert_eq!(at_impacts[0], 0.0);
+    assert!((at_impacts[1] - expected).abs() < 1e-12, "{at_impacts:?}, {expected}");
+}
+
+/// Impacts may ask for more friction than the forces between them: the verdict of the report and its table say both.
+#[test]
+fn the_report_says_what_impacts_ask_for() {
+    let scene = "[column]\nblocks = 2\nhalf_width = 0.225\nhalf_height = 1.618\n[excitation.horizontal]\nkind = \"sine-pulse\"\n\
+                 amplitude_g = 0.4922828508385142\nfrequency = 2.060751486038808\n";
+    let folder = Folder::with("s.toml", scene);
+    folder.succeeds("run s.toml --out o --no-trust --report");
+    let report = folder.read("o/report.html");
+    let summary = folder.json("o/summary.json");
+    let largest = |key: &str| {
+        let contacts = summary["validity"]["contacts"].as_array().expect("a list");
+        contacts.iter().map(|contact| contact[key]["value"].as_f64().expect("a number")).fold(0.0, f64::max)
+    };
+    let [forces, impacts] = ["friction_demand", "impulse_friction_demand"].map(largest);
+    assert!(impacts > forces && forces > 0.0, "{forces} {impacts}");
+    assert!(report.contains(&format!("impacts ask for up to {:.3}", impacts)), "{impacts}");
+    assert!(report.contains("the same of impulses at impacts"));
 }

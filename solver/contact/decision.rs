@@ -16,6 +16,8 @@ pub struct Decision {
     /// Besides the interfaces that are released, others are critical: their forces and accelerations are at the bounds between two states, and rounding has
     /// chosen. What follows an instant later decides (`open_an_instant_later`).
     pub is_critical: bool,
+    /// Restitution was left out (docs/book/model.md, section 5).
+    pub is_without_restitution: bool,
     /// Lost share of the kinetic energy before, 0 to 1. Zero where rates do not jump or `ImpactLaw::is_recorded` is false.
     pub energy_lost: f64,
     /// Impulses at the interfaces on the stack above, base first `[N s]`, `[N m s]`: normal, tangential, moment about the

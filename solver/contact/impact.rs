@@ -1,7 +1,7 @@
 //! Impacts: the plastic law, and the rest rule (docs/book/model.md, section 5).
 
 use super::decision::Decision;
-use super::restitution::rebounded;
+use super::restitution::{Restitution, rebounded};
 use super::search::{Candidate, ContactProblem, Found};
 use super::state_at_event::{
     Answer, Mechanism, ROUNDING, SingularMass, StateAtEvent, accelerate, chosen, may_choose, project, sizes,
@@ -77,8 +77,11 @@ fn impact_at<S: Size>(
     let is_striking = |&i: &usize| f64::from(states[i].sign()) * relative(omega, i) < 0.0;
     let striking = closing.iter().copied().filter(is_striking);
     let rebound = rebounded(&mechanism, &plastic, striking, &free, law.kappa, energy_before);
-    let rebounds = rebound.is_some();
-    let mut rates = rebound.unwrap_or(plastic.angular);
+    let is_without_restitution = matches!(rebound, Restitution::LeftOut);
+    let (mut rates, rebounds) = match rebound {
+        Restitution::Rates(rates) => (rates, true),
+        Restitution::None | Restitution::LeftOut => (plastic.angular, false),
+    };
     // Impulses are those of the impact: the projection that ends a hop has others, whose ratio is that of the lengths of a block.
     let impulses = law.is_recorded.then(|| {
         let posture = &mechanism.posture;
@@ -109,6 +112,7 @@ fn impact_at<S: Size>(
         omega: PerBlock::from_slice(&rates),
         separation: !is_impact_admissible || !is_motion_admissible,
         is_critical: false,
+        is_without_restitution,
         energy_lost,
         plastic_impulses: match impulses.is_some() && rebounds {
             true => PerBlock::from_slice(&plastic.resultants),
@@ -147,6 +151,7 @@ pub(crate) fn stick(
         omega: PerBlock::from_slice(&answer.angular),
         separation: true,
         is_critical: false,
+        is_without_restitution: false,
         energy_lost: share_lost(energy_before, energy_after),
         impulses: PerBlock::from_slice(&answer.resultants),
         plastic_impulses: PerBlock::new(),

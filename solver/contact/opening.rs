@@ -93,6 +93,7 @@ fn open_at<S: Size>(
         omega,
         separation,
         is_critical,
+        is_without_restitution: false,
         energy_lost: 0.0,
         impulses: PerBlock::new(),
         plastic_impulses: PerBlock::new(),

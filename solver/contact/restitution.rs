@@ -7,8 +7,17 @@ use crate::numerics::per_block::Size;
 /// Share by which restitution may raise the kinetic energy, so that `η = 1` conserves (docs/book/model.md, section 5).
 pub(crate) const ENERGY_ROUNDING: f64 = 1e-12;
 
-/// Rates after restitution: `ω' ← ω' + M'⁻¹ Cᵀ μ`, with `C ω'` multiplied by `κ` at the interfaces that strike and are open afterwards. `None` if
-/// nothing rebounds, if all factors are one, or if the model leaves restitution out: it would close an interface that opens, or gain energy.
+/// What restitution does at an impact.
+pub(super) enum Restitution<S: Size> {
+    /// Nothing: nothing that strikes pivots on, or all factors are one.
+    None,
+    /// The model leaves it out: it would close an interface that opens, or gain energy.
+    LeftOut,
+    /// The blocks' rates afterwards.
+    Rates(S::List<f64>),
+}
+
+/// Rates after restitution: `ω' ← ω' + M'⁻¹ Cᵀ μ`, with `C ω'` multiplied by `κ` at the interfaces that strike and are open afterwards.
 pub(super) fn rebounded<S: Size>(
     mechanism: &Mechanism<S>,
     plastic: &Answer<S>,
@@ -16,7 +25,7 @@ pub(super) fn rebounded<S: Size>(
     free: &[bool],
     kappa: &[f64],
     energy_before: f64,
-) -> Option<S::List<f64>> {
+) -> Restitution<S> {
     let Mechanism { states, posture, .. } = mechanism;
     let (mut rebounding, mut count) = (posture.size.list(0), 0);
     for interface in striking.filter(|&i| states[i].is_open()) {
@@ -25,14 +34,14 @@ pub(super) fn rebounded<S: Size>(
     }
     let rebounding = &rebounding[..count];
     if rebounding.iter().all(|&interface| kappa[interface] == 1.0) {
-        return None;
+        return Restitution::None;
     }
     let effect = UnitImpulses::new(mechanism, rebounding);
     let mut change = posture.size.list(0.0);
     for (change, &interface) in change.iter_mut().zip(rebounding) {
         *change = (kappa[interface] - 1.0) * relative(&plastic.angular, interface);
     }
-    let impulses = effect.impulses(change)?;
+    let Some(impulses) = effect.impulses(change) else { return Restitution::LeftOut };
     let mut rates = posture.link_rates(&plastic.angular);
     for (index, impulse) in impulses[..count].iter().enumerate() {
         rates.iter_mut().zip(effect.row(index)).for_each(|(rate, share)| *rate += share * impulse);
@@ -50,7 +59,7 @@ pub(super) fn rebounded<S: Size>(
     };
     let energy = posture.kinetic_energy(&posture.linear(&rates), &rebound);
     let gains = energy > energy_before * (1.0 + ENERGY_ROUNDING);
-    (!chosen(free).any(closes) && !gains).then_some(rebound)
+    if chosen(free).any(closes) || gains { Restitution::LeftOut } else { Restitution::Rates(rebound) }
 }
 
 /// What unit moment impulses at some interfaces do: one at a time, opposite on the blocks above and below.

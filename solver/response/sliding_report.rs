@@ -37,8 +37,6 @@ pub struct SlidingReport {
     pub ambiguous: Vec<f64>,
     /// Times at which no acceleration was admissible `[s]`.
     pub jammed: Vec<f64>,
-    /// Number of impacts at which the scene's restitution was left out: something slides, or the impulse would leave its cone, pull or gain energy.
-    pub without_restitution: usize,
 }
 
 /// Time that an interface spends in each kind of contact `[s]`.
@@ -112,12 +110,6 @@ impl SlidingReport {
                 "at {} instant(s), the first at t = {:.4} s, friction admits no smooth motion: the blocks jam, and strike",
                 self.jammed.len(),
                 times(&self.jammed)
-            ));
-        }
-        if self.without_restitution > 0 {
-            warnings.push(format!(
-                "at {} impact(s) the coefficient of restitution was left out, as something slides or friction is too low: these are plastic",
-                self.without_restitution
             ));
         }
         if status == StopReason::Undetermined {

@@ -48,15 +48,21 @@ pub(crate) struct Cones<'a> {
     may_be_below: Vec<bool>,
     /// Per interface, the normal force below which a contact parts `[N]`.
     least_normal: Vec<f64>,
-    /// Largest rate of all blocks up to which impulses are not checked `[rad/s]`: no block that slow hops higher than `stick_angle`.
-    last_rate: f64,
+    /// Impulses of impacts in which no block turns faster are not checked `[rad/s]`.
+    slowest_impact: f64,
+}
+
+/// The largest rate of all blocks at which impacts are part of the end of a chatter: no block that slow hops higher than `stick_angle` `[rad/s]`
+/// (docs/book/model.md, section 18).
+pub(crate) fn slowest_impact(column: &Column, stick_angle: f64) -> f64 {
+    let smallest = |size: f64, block: &Block| size.min(libm::hypot(block.half_height, block.half_width()));
+    let size = column.blocks().iter().fold(f64::INFINITY, smallest);
+    (2.0 * column.gravity() / size * stick_angle).sqrt()
 }
 
 impl<'a> Cones<'a> {
     /// The cones of a column with its present slides. Impacts of hops up to `stick_angle` `[rad]` are not checked.
     pub fn new(column: &Column, friction: &'a Coefficients, stick_angle: f64) -> Cones<'a> {
-        let smallest = |size: f64, block: &Block| size.min(libm::hypot(block.half_height, block.half_width()));
-        let size = column.blocks().iter().fold(f64::INFINITY, smallest);
         let may_be_below = |interface: usize| {
             let reach = column.blocks()[interface].bottom_half_width + column.slides()[interface].abs();
             let below = interface.checked_sub(1).map(|below| column.blocks()[below].top_half_width);
@@ -66,7 +72,7 @@ impl<'a> Cones<'a> {
             friction,
             may_be_below: (0..column.len()).map(may_be_below).collect(),
             least_normal: (0..column.len()).map(|i| NO_FORCE * column.mass_above(i) * column.gravity()).collect(),
-            last_rate: (2.0 * column.gravity() / size * stick_angle).sqrt(),
+            slowest_impact: slowest_impact(column, stick_angle),
         }
     }
 
@@ -100,7 +106,7 @@ impl Limits for Cones<'_> {
         if decision.separation {
             return false;
         }
-        if before.omega.iter().all(|rate| rate.abs() <= self.last_rate) {
+        if before.omega.iter().all(|rate| rate.abs() <= self.slowest_impact) {
             return true;
         }
         let gaps = record.largest_gaps();

@@ -15,6 +15,8 @@ pub struct Log {
     pub rows: Rows,
     pub events: Vec<Event>,
     pub impacts: usize,
+    /// Impacts at which restitution was left out.
+    pub without_restitution: usize,
     pub extremes: Extremes,
 }
 
@@ -28,17 +30,19 @@ impl Log {
 
     /// The response of a run that has ended at a time `[s]`, with what the log holds; all else is blank.
     pub fn into_response(self, status: StopReason, t_final: f64) -> Response {
-        let Log { rows, events, impacts, extremes } = self;
+        let Log { rows, events, impacts, without_restitution, extremes } = self;
         Response {
             status,
             t_final,
             truncated: false,
             may_overturn: false,
+            slides_on: false,
             overturned_block: None,
             collapsed_block: None,
             samples: rows.samples,
             events,
             impacts,
+            without_restitution,
             peak_theta: extremes.peak_theta.to_vec(),
             largest_gaps: Vec::new(),
             time_in_mode: BTreeMap::new(),

@@ -4,8 +4,10 @@
 //! a fall are dropped.
 
 use super::panel_forces::{PanelForces, place_of_crest};
+use super::state::State;
 use super::stretch::{Inside, Panel};
 use crate::column::Column;
+use crate::mechanics::dynamics::ContactForce;
 use crate::numerics::guards::root_between;
 use crate::numerics::per_block::PerBlock;
 use crate::validity::{COEFFICIENTS, ContactNeeds, Exceedance, Extreme, Span, Validity};
@@ -32,6 +34,8 @@ pub(crate) struct Needs {
 #[derive(Clone, Copy)]
 struct Account {
     demand: ExtremeSoFar,
+    /// Friction demand of impulses.
+    impulse_demand: ExtremeSoFar,
     normal: ExtremeSoFar,
     tension: f64,
     above: [f64; COEFFICIENTS.len()],
@@ -45,9 +49,15 @@ struct ExtremeSoFar {
     theta: f64,
 }
 
+impl ExtremeSoFar {
+    /// Nothing is needed so far.
+    const NONE: ExtremeSoFar = ExtremeSoFar { value: 0.0, t: 0.0, theta: 0.0 };
+}
+
 impl Account {
     const NEW: Account = Account {
-        demand: ExtremeSoFar { value: 0.0, t: 0.0, theta: 0.0 },
+        demand: ExtremeSoFar::NONE,
+        impulse_demand: ExtremeSoFar::NONE,
         normal: ExtremeSoFar { value: f64::INFINITY, t: 0.0, theta: 0.0 },
         tension: 0.0,
         above: [0.0; COEFFICIENTS.len()],
@@ -86,6 +96,9 @@ impl Account {
     fn merge(&mut self, other: &Account) {
         if other.demand.value > self.demand.value {
             self.demand = other.demand;
+        }
+        if other.impulse_demand.value > self.impulse_demand.value {
+            self.impulse_demand = other.impulse_demand;
         }
         if other.normal.value < self.normal.value {
             self.normal = other.normal;
@@ -170,6 +183,15 @@ impl Needs {
         }
     }
 
+    /// Adds what a contact (from zero) needs at an impact of this state.
+    pub fn add_impulse(&mut self, interface: usize, impulse: &ContactForce, before: &State) {
+        let accounts = if before.t <= self.past_since { &mut self.counted } else { &mut self.pending };
+        let (demand, own) = (impulse.friction_demand(), &mut accounts[interface].impulse_demand);
+        if demand > own.value {
+            *own = ExtremeSoFar { value: demand, t: before.t, theta: before.theta[interface] };
+        }
+    }
+
     /// Ends a stretch: gives its extremes their angles.
     pub fn end(&mut self, inside: &mut dyn Inside) {
         if !std::mem::take(&mut self.is_fresh) {
@@ -198,6 +220,7 @@ impl Needs {
         let extreme = |found: &ExtremeSoFar| Extreme { value: found.value, t: found.t, theta: found.theta };
         let contact = |account: &Account| ContactNeeds {
             friction_demand: extreme(&account.demand),
+            impulse_friction_demand: extreme(&account.impulse_demand),
             min_normal_force: extreme(&account.normal),
             tension: Span { time: account.tension, share: share(account.tension) },
             above: COEFFICIENTS

@@ -37,6 +37,7 @@ pub(crate) struct Mark {
     extremes: Extremes,
     events: usize,
     impacts: usize,
+    without_restitution: usize,
     separations: usize,
 }
 
@@ -49,6 +50,7 @@ impl Recorder {
                 rows: Rows::starting_in(start.segment, rows),
                 events: Vec::new(),
                 impacts: 0,
+                without_restitution: 0,
                 extremes: Extremes::new(blocks, problem.is_recorded(), records_forces),
             },
             pattern: start.pattern.clone(),
@@ -70,12 +72,13 @@ impl Recorder {
 
     /// The present place in the record.
     pub fn mark(&self) -> Mark {
-        let Log { rows, events, impacts, extremes } = &self.log;
+        let Log { rows, events, impacts, without_restitution, extremes } = &self.log;
         Mark {
             rows: rows.mark(),
             extremes: extremes.clone(),
             events: events.len(),
             impacts: *impacts,
+            without_restitution: *without_restitution,
             separations: self.separations.len(),
         }
     }
@@ -85,7 +88,8 @@ impl Recorder {
         self.log.rows.undo(mark.rows);
         self.log.events.truncate(mark.events);
         self.separations.truncate(mark.separations);
-        (self.log.impacts, self.log.extremes) = (mark.impacts, mark.extremes);
+        (self.log.impacts, self.log.without_restitution) = (mark.impacts, mark.without_restitution);
+        self.log.extremes = mark.extremes;
     }
 
     /// Largest sizes of gaps so far, per interface `[rad]`; empty unless they are recorded.
@@ -173,6 +177,7 @@ impl Recorder {
             self.separations.push(Separation { t: before.t, during: kind });
         }
         self.log.impacts += usize::from(transition.is_event && kind == EventKind::Impact);
+        self.log.without_restitution += usize::from(transition.decision.is_without_restitution);
         if !problem.is_recorded() {
             return;
         }
@@ -182,6 +187,9 @@ impl Recorder {
         if problem.records_forces() {
             for (interface, impulse) in noticeable_impulses(&transition.decision.impulses) {
                 self.log.extremes.add_impulse(interface, impulse);
+                if let Some(needs) = &mut self.needs {
+                    needs.add_impulse(interface, impulse, before);
+                }
             }
         }
         if transition.is_event {

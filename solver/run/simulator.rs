@@ -123,7 +123,9 @@ impl Simulator {
         let mut response = self.response(scene, progress)?;
         let ground_moves = scene.excitation.moves_after(scene.options.t_end);
         response.may_overturn &= !ground_moves;
-        response.truncated = response.status.stands() && (ground_moves || response.may_overturn);
+        response.slides_on &= !ground_moves;
+        let is_open = ground_moves || response.may_overturn || response.slides_on;
+        response.truncated = response.status.stands() && is_open;
         Ok(response)
     }
 

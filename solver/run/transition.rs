@@ -166,6 +166,7 @@ fn withdraw(before: &State, closing: &[usize]) -> Transition {
             omega,
             separation: false,
             is_critical: false,
+            is_without_restitution: false,
             energy_lost: 0.0,
             impulses: PerBlock::new(),
             plastic_impulses: PerBlock::new(),

@@ -97,8 +97,7 @@ impl<'a> Run<'a> {
 
 /// The warning of a run that ends before its ground motion. A motion without end has none, as it must be cut somewhere.
 fn cut(scene: &Scene, response: &Response) -> Option<String> {
-    let is_cut = response.truncated && !response.may_overturn;
-    let still = scene.excitation.still_from().filter(|_| is_cut)?;
+    let still = scene.excitation.still_from().filter(|_| response.cuts_ground_motion())?;
     let end = scene.options.t_end;
     Some(format!(
         "the ground motion is cut: it lasts until t = {still:.4} s, and the run ends at solver.t_end = {end} s; the outcome holds up to then \

@@ -227,7 +227,10 @@ fn end_of(scene: &Scene) -> Derived {
     let still = scene.excitation.still_from().unwrap_or(0.0);
     let from = match still {
         0.0 => "a free swing of 20/p, at least 10 s, rounded up".into(),
-        still => format!("the ground rests from {still} s on, and a free swing of 20/p, at least 10 s; rounded up"),
+        still => format!(
+            "the ground rests from {} s on, and a free swing of 20/p, at least 10 s; rounded up",
+            (1e4 * still).round() / 1e4
+        ),
     };
     Derived { key: "solver.t_end".into(), value: scene.options.t_end, unit: "s", from }
 }

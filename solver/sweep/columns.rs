@@ -30,8 +30,10 @@ pub enum Field {
     ResidualSlide(usize),
     /// Whether no contact parts or pulls, and some coefficient of friction is enough.
     Valid,
-    /// Largest friction demand, dimensionless.
+    /// Largest friction demand between impacts, dimensionless.
     MuDemand,
+    /// Largest friction demand of impulses at impacts, dimensionless.
+    MuDemandAtImpacts,
     /// Smallest normal force over the weight above, dimensionless.
     MinNormal,
     /// Number of separations.
@@ -92,9 +94,12 @@ impl Field {
     pub fn kind(self) -> CellKind {
         match self {
             Field::Index | Field::Impacts | Field::Block | Field::Separations => CellKind::Whole,
-            Field::OverturnedAt | Field::Peak(_) | Field::ResidualSlide(_) | Field::MuDemand | Field::MinNormal => {
-                CellKind::Number
-            }
+            Field::OverturnedAt
+            | Field::Peak(_)
+            | Field::ResidualSlide(_)
+            | Field::MuDemand
+            | Field::MuDemandAtImpacts
+            | Field::MinNormal => CellKind::Number,
             Field::Valid | Field::Truncated => CellKind::Truth,
             Field::Outcome | Field::Trust => CellKind::Word,
             Field::Axis(_) | Field::LastMode | Field::Error => CellKind::Text,
@@ -123,6 +128,7 @@ impl Field {
             Field::ResidualSlide(interface) => number(found.residual_slides.get(interface).copied()),
             Field::Valid => needs.map_or(Cell::Blank, |needs| Cell::Truth(needs.valid)),
             Field::MuDemand => number(needs.map(|needs| needs.mu_demand)),
+            Field::MuDemandAtImpacts => number(needs.map(|needs| needs.mu_demand_at_impacts)),
             Field::MinNormal => number(needs.map(|needs| needs.min_normal)),
             Field::Separations => whole(needs.map(|needs| needs.separations)),
             Field::Trust => {
@@ -151,7 +157,8 @@ impl Sweep {
             match self.ask {
                 Ask::Slides => fields.extend((0..blocks).map(Field::ResidualSlide)),
                 Ask::Validity => {
-                    fields.extend([Field::Valid, Field::MuDemand, Field::MinNormal, Field::Separations]);
+                    fields.extend([Field::Valid, Field::MuDemand, Field::MuDemandAtImpacts]);
+                    fields.extend([Field::MinNormal, Field::Separations]);
                 }
                 Ask::Trust => fields.push(Field::Trust),
                 Ask::Outcome | Ask::Overturns | Ask::Peaks => {}
@@ -179,6 +186,7 @@ impl Sweep {
             Field::LastMode => "last_mode",
             Field::Valid => "valid",
             Field::MuDemand => "mu_demand",
+            Field::MuDemandAtImpacts => "mu_demand_at_impacts",
             Field::MinNormal => "min_normal",
             Field::Separations => "separations",
             Field::Trust => "trust",

@@ -161,8 +161,10 @@ impl Outcome {
 pub struct Needs {
     /// Whether no contact parts or pulls, and some coefficient of friction is enough.
     pub valid: bool,
-    /// Largest friction demand, dimensionless.
+    /// Largest friction demand between impacts, dimensionless.
     pub mu_demand: f64,
+    /// Largest friction demand of impulses at impacts, dimensionless.
+    pub mu_demand_at_impacts: f64,
     /// Smallest normal force over the weight above its interface, dimensionless.
     pub min_normal: f64,
     /// Number of separations.
@@ -177,6 +179,7 @@ impl Needs {
         Needs {
             valid: validity.holds(),
             mu_demand: validity.largest_demand(),
+            mu_demand_at_impacts: validity.largest_impulse_demand(),
             min_normal: validity.contacts.iter().enumerate().map(share).fold(f64::INFINITY, f64::min),
             separations: validity.separations,
         }

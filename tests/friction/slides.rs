@@ -391,3 +391,20 @@ fn of_two_slides_the_one_with_the_smaller_change_begins() {
     assert_relative_eq!(slide(&response, 0), -0.5 * 0.4 * GRAVITY * 0.0025, max_relative = 1e-12);
     assert_eq!(response.sliding.expect("friction").ambiguous, [0.0]);
 }
+
+/// A block that slides where the run ends has no final place: the run says so. Given the time that friction takes, `v / (μ g)`, it has.
+#[test]
+fn a_slide_that_goes_on_is_said() {
+    let mut scene = scene(vec![Block::rectangle(0.5, 0.05, 1.0)], vec![0.01]);
+    scene.excitation.horizontal = Some(Motion::HalfSine { amplitude: 0.5 * GRAVITY, omega: 0.5 * TAU, start: 0.0 });
+    for (t_end, slides_on) in [(11.0, true), (60.0, false)] {
+        scene.options.t_end = t_end;
+        let response = run(&scene);
+        assert_eq!((response.slides_on, response.truncated), (slides_on, slides_on), "{t_end}");
+        assert_eq!(response.warnings().iter().any(|warning| warning.contains("not final")), slides_on, "{t_end}");
+    }
+    // The ground that still moves is the first thing to know.
+    scene.options.t_end = 0.5;
+    let response = run(&scene);
+    assert!(response.truncated && !response.slides_on && response.cuts_ground_motion());
+}

@@ -136,7 +136,7 @@ fn end_of_run(scene: &Scene, response: &Response) -> String {
             "{fate}; not overturned up to t = {} s, where the run ends and the column has the energy to overturn",
             scene.options.t_end
         ),
-        StopReason::AtRest | StopReason::EndOfTime if response.truncated => format!(
+        StopReason::AtRest | StopReason::EndOfTime if response.cuts_ground_motion() => format!(
             "{fate}; not overturned up to t = {} s, where the run ends and the ground still moves",
             scene.options.t_end
         ),
@@ -148,7 +148,7 @@ fn end_of_run(scene: &Scene, response: &Response) -> String {
         ),
         StopReason::Undetermined => format!("{fate} from t = {t:.4} s on: no motion follows from the laws of contact"),
         _ => {
-            let moves = if Fate::of(response) == Fate::Slides { "sliding" } else { "rocking" };
+            let moves = if response.slides_on { "sliding" } else { "rocking" };
             format!("{fate} and stands at t = {t:.4} s, still {moves}")
         }
     }

@@ -177,7 +177,7 @@ pub use crate::table::column::{OUTCOME, TRUST};
 /// The column of the time of overturning.
 pub const TIME: &str = "overturned_at";
 
-/// The column of the table that says whether a run was truncated: the blocks stand at `t_end`, and the ground moves on or they may overturn.
+/// The column of the table that says whether a run was truncated: the blocks stand at `t_end`, and the ground moves on, they may overturn, or they slide on.
 pub const TRUNCATED: &str = "truncated";
 
 /// The columns of the table of a sweep.
@@ -288,7 +288,7 @@ pub struct Tally {
     collapses: usize,
     undetermined: usize,
     pub errors: usize,
-    /// Rows of truncated runs: the blocks stand at `t_end`, and the ground moves on or they may overturn. They are also counted by outcome.
+    /// Rows of truncated runs: the blocks stand at `t_end`, and the ground moves on, they may overturn, or they slide on. They are also counted by outcome.
     truncated: usize,
     /// Rows whose outcome is not determined, in sweeps that ask for trust, where they are also counted by outcome, and in studies.
     not_determined: usize,
@@ -342,7 +342,7 @@ impl std::fmt::Display for Tally {
         if self.truncated > 0 {
             writeln!(
                 f,
-                "{} run(s) are cut at solver.t_end: the ground still moves there, or the column has the energy to overturn",
+                "{} run(s) are cut at solver.t_end: the ground still moves there, the column has the energy to overturn, or blocks slide on",
                 self.truncated
             )?;
         }

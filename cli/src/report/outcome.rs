@@ -9,7 +9,7 @@ use crate::text::escape;
 use rocking::column::Shape;
 use rocking::pattern::{ModeLabel, Pattern};
 use rocking::run_folder::Results;
-use rocking::{Event, EventKind, Fate, SlidingReport, StopReason};
+use rocking::{Event, EventKind, SlidingReport, StopReason};
 use std::fmt::Write as _;
 
 /// HTML of the outcome: the sentence with a sign, what is known of its trust, and where the blocks stayed.
@@ -50,7 +50,7 @@ fn end_of_run(results: &Results) -> (&'static str, String) {
                  or has the energy to get there: whether it stands is open."
             ),
         ),
-        StopReason::AtRest | StopReason::EndOfTime if response.truncated => (
+        StopReason::AtRest | StopReason::EndOfTime if response.cuts_ground_motion() => (
             "rocking",
             format!(
                 "The column has <strong>not overturned</strong> up to t&nbsp;=&nbsp;{end}&nbsp;s, where the run ends; the ground still \
@@ -83,11 +83,13 @@ fn end_of_run(results: &Results) -> (&'static str, String) {
                  contact with friction there."
             ),
         ),
-        StopReason::EndOfTime if results.response.samples.last().is_some_and(|row| row.pattern.dof() == 0) => {
+        StopReason::EndOfTime
+            if !response.slides_on && results.response.samples.last().is_some_and(|row| row.pattern.dof() == 0) =>
+        {
             ("stands", format!("The column <strong>stands</strong> at the end of the run, t&nbsp;=&nbsp;{end}&nbsp;s."))
         }
         _ => {
-            let moves = if Fate::of(&results.response) == Fate::Slides { "sliding" } else { "rocking" };
+            let moves = if response.slides_on { "sliding" } else { "rocking" };
             let words = format!(
                 "The column <strong>stands</strong>, but is still {moves} at the end of the run, t&nbsp;=&nbsp;{end}&nbsp;s."
             );
@@ -112,13 +114,22 @@ fn places(results: &Results) -> String {
         .collect();
     let mut parts = Vec::new();
     if !way.is_empty() {
-        parts.push(format!("Slid to and fro: {} in all.", way.join(", ")));
+        let turned = |&interface: &usize| {
+            let start = results.response.samples.first().and_then(|row| row.slide.get(interface)).unwrap_or(&0.0);
+            report.way_slid[interface] > (report.residual_slide[interface] - start).abs() + SMALLEST_SLIDE
+        };
+        let (how, all) = if moved.iter().any(turned) { (" to and fro", " in all") } else { ("", "") };
+        parts.push(format!("Slid{how}: {}{all}.", way.join(", ")));
     }
     let flights: usize = report.flights.iter().sum();
     if flights > 0 {
         let who: Vec<usize> = moved.iter().copied().filter(|&one| report.flights[one] > 0).collect();
         let times = counted(flights, ["flight", "flights"]);
-        parts.push(format!("{times} at {}, up to {} high.", named(&who), centimetres(report.highest_flight)));
+        let height = match report.highest_flight {
+            height if height < SMALLEST_SLIDE => String::new(),
+            height => format!(", up to {} high", centimetres(height)),
+        };
+        parts.push(format!("{times} at {}{height}.", named(&who)));
     }
     format!("{}<p>{}</p>\n", stayed(results, report, &moved), parts.join(" "))
 }
@@ -139,7 +150,11 @@ fn stayed(results: &Results, report: &SlidingReport, moved: &[usize]) -> String 
     };
     let all = 0..results.column.len();
     let bodies = if all.clone().all(|block| results.shape(block) == Shape::Drum) { "drums" } else { "blocks" };
-    let verb = if response.status == StopReason::Undetermined { "stood at the end of the run" } else { "stayed" };
+    let verb = match (response.status, response.slides_on) {
+        (StopReason::Undetermined, _) => "stood at the end of the run",
+        (_, true) => "are at the end of the run, still sliding or flying",
+        (_, false) => "stayed",
+    };
     let which = if moved.len() < all.len() { " that slid or flew" } else { "" };
     let places: String = moved.iter().map(place).collect();
     format!("<p>Where the {bodies}{which} {verb}:</p><ul class=\"plain\">{places}</ul>\n")

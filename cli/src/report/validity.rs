@@ -6,7 +6,7 @@ use crate::report::number::{degrees, fixed, percent, significant, with_minus};
 use crate::text::escape;
 use rocking::run_folder::Results;
 use rocking::validity::{COEFFICIENTS, ContactNeeds, Extreme};
-use rocking::{ContactTimes, SlidingReport, StopReason, Validity};
+use rocking::{ContactTimes, Response, SlidingReport, StopReason, Validity};
 use std::fmt::Write as _;
 
 /// Above this, bare stone on stone slides: friction coefficients of dry masonry stay below one.
@@ -160,11 +160,32 @@ fn judge(results: &Results) -> Verdict {
             Verdict::Holds("no block leaves its contact, and no joint needs any friction".into())
         }
         (true, None) => Verdict::Conditional(format!(
-            "no block leaves its contact, and {} needs a friction coefficient of {}{}",
+            "no block leaves its contact, and {} needs a friction coefficient of {}{}{}",
             named(&[worst]),
             significant(demand, 3),
-            if demand > UNUSUAL_FRICTION { ", which is more than bare stone on stone offers" } else { "" }
+            if demand > UNUSUAL_FRICTION { ", which is more than bare stone on stone offers" } else { "" },
+            impacts_need(response, demand)
         )),
+    }
+}
+
+/// What the impulses at impacts need, where it is more than the forces do; empty otherwise.
+fn impacts_need(response: &Response, forces_need: f64) -> String {
+    let contacts = response.validity.as_ref().map_or(&[][..], |validity| &validity.contacts);
+    let demands = contacts.iter().map(|contact| contact.impulse_friction_demand.value).enumerate();
+    match demands.max_by(|a, b| a.1.total_cmp(&b.1)) {
+        Some((worst, demand)) if demand.is_infinite() => {
+            format!(
+                "; at an impact no coefficient is enough at {}, where blocks would slip for an instant",
+                named(&[worst])
+            )
+        }
+        Some((worst, demand)) if demand > forces_need => format!(
+            "; impacts ask for up to {} at {}, below which blocks slip for an instant",
+            significant(demand, 3),
+            named(&[worst])
+        ),
+        _ => String::new(),
     }
 }
 
@@ -262,17 +283,24 @@ fn needs_table(results: &Results) -> String {
         let slides =
             response.sliding.is_none() && results.available_friction().is_some_and(|friction| demand > friction);
         let force = if force.abs() <= NO_FORCE * weight { 0.0 } else { force };
+        let in_words = |demand: f64| if demand.is_finite() { significant(demand, 3) } else { "none is enough".into() };
         // A contact that has never been closed has neither.
         let [demand, force] = if force.is_finite() {
             let share = format!("{} ({} of the weight)", significant(force, 4), percent(force / weight));
-            let demand = if demand.is_finite() { significant(demand, 3) } else { "none is enough".into() };
+            let demand = in_words(demand);
             [at(demand, own.map(|own| &own.friction_demand)), at(share, own.map(|own| &own.min_normal_force))]
         } else {
             ["–"; 2].map(String::from)
         };
+        let at_impacts = match (own, response.impulse_friction_demand.get(interface)) {
+            _ if demand == "–" => "–".into(),
+            (Some(own), _) => at(in_words(own.impulse_friction_demand.value), Some(&own.impulse_friction_demand)),
+            (None, Some(demand)) => in_words(*demand),
+            (None, None) => "–".into(),
+        };
         let _ = writeln!(
             rows,
-            "<tr{}><th scope=\"row\">{}</th><td>{demand}</td><td>{force}</td><td>{}</td></tr>",
+            "<tr{}><th scope=\"row\">{}</th><td>{demand}</td><td>{at_impacts}</td><td>{force}</td><td>{}</td></tr>",
             if slides { " class=\"beyond\"" } else { "" },
             interface + 1,
             significant(weight, 4),
@@ -288,6 +316,7 @@ fn needs_table(results: &Results) -> String {
         "<div class=\"wide\"><table class=\"needs\">\n<caption>Per interface, the top one first; interface 1 is under block 1, θ is the angle of the block \
          above. Friction: {available}.</caption>\n\
          <thead><tr><th scope=\"col\">interface</th><th scope=\"col\">largest friction demand |T|/N</th>\
+         <th scope=\"col\">the same of impulses at impacts</th>\
          <th scope=\"col\">smallest normal force [N]</th><th scope=\"col\">weight above [N]</th></tr></thead>\n\
          <tbody>\n{rows}</tbody></table></div>\n"
     )

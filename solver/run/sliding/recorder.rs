@@ -15,6 +15,7 @@ use crate::numerics::per_block::PerBlock;
 use crate::response::{
     BlockAtEvent, BlockState, ContactTimes, Event, Impulse, ModeName, Response, Sample, SlidingReport, StopReason, Work,
 };
+use crate::run::cones::slowest_impact;
 use crate::run::log::{Extremes, Log, Rows, raise};
 use crate::run::problem::Problem;
 use crate::run::rest;
@@ -89,7 +90,13 @@ impl<'p> SlidingRecorder<'p> {
         SlidingRecorder {
             problem,
             friction,
-            log: Log { rows: Rows::starting_in(0, 0), events: Vec::new(), impacts: 0, extremes },
+            log: Log {
+                rows: Rows::starting_in(0, 0),
+                events: Vec::new(),
+                impacts: 0,
+                without_restitution: 0,
+                extremes,
+            },
             read_until: f64::NAN,
             least_normal_force: (0..blocks)
                 .map(|i| LIGHT_SHARE * problem.scene.column.mass_above(i) * problem.scene.column.gravity())
@@ -120,7 +127,7 @@ impl<'p> SlidingRecorder<'p> {
         }
         self.report.ambiguous.extend(std::iter::repeat_n(t, transition.ambiguous));
         self.report.jammed.extend(transition.is_jammed.then_some(t));
-        self.report.without_restitution += transition.without_restitution;
+        self.log.without_restitution += transition.without_restitution;
         for change in &transition.changes {
             self.record_event(t, change);
         }
@@ -201,6 +208,7 @@ impl<'p> SlidingRecorder<'p> {
         self.work.add(&response.work);
         self.used_generic |= response.used_generic;
         self.log.impacts += response.impacts;
+        self.log.without_restitution += response.without_restitution;
         self.log.extremes.add_part(&response);
         // Whether blocks rocked before others slid belongs to the outcome.
         for (mode, time) in response.time_in_mode {
@@ -218,6 +226,7 @@ impl<'p> SlidingRecorder<'p> {
             let snapshot = self.snapshot(sample.t, sticking(&sample.pattern, &sample.theta, &sample.omega));
             self.row(sample.t, &snapshot);
         }
+        let slowest_impact = slowest_impact(column, self.problem.scene.options.stick_angle);
         let mut lost = 0.0;
         self.log.events.reserve(response.events.len());
         for mut event in response.events {
@@ -235,7 +244,10 @@ impl<'p> SlidingRecorder<'p> {
                     *impulse = at_corner(*impulse, f64::from(side) * column.contact_half_width(interface), turn);
                 }
             }
-            self.impulses(&event.impulses);
+            // The last impacts of a chatter need not be within the cones.
+            if event.omega_before.iter().any(|rate| rate.abs() > slowest_impact) {
+                self.impulses(&event.impulses);
+            }
             self.log.push_event(event);
         }
         self.report.impact_losses += lost;
@@ -389,6 +401,20 @@ impl<'p> SlidingRecorder<'p> {
         });
     }
 
+    /// Whether some block is in flight, or slides so fast that it will go on visibly.
+    fn slides_on(&self, now: &Configuration) -> bool {
+        let goes_on = |interface: usize| match now.joints[interface].slip() {
+            None => true,
+            Some(Slip::Sticks) => false,
+            Some(Slip::Slides(_)) => {
+                let rate = now.slide_rate[interface];
+                let least = VISIBLE_WAY * self.column().size() * self.column().gravity();
+                rate * rate > 2.0 * self.friction.kinetic[interface] * least
+            }
+        };
+        (0..now.joints.len()).any(goes_on)
+    }
+
     /// Whether the column is past its balance, or has the energy to get there: with the blocks displaced as they are at the end, or as far as slides and
     /// flights on other blocks may go on, by the energy that there is. A block that is off its support then has no balance.
     fn may_overturn(&self, now: &Configuration) -> bool {
@@ -437,8 +463,9 @@ impl<'p> SlidingRecorder<'p> {
             self.report.energy_change = energy(self.column(), now) - self.energy_at_start;
         }
         let may_overturn = status == StopReason::EndOfTime && self.may_overturn(now);
+        let slides_on = status == StopReason::EndOfTime && self.slides_on(now);
         let mut response = self.log.into_response(status, end.t);
-        response.may_overturn = may_overturn;
+        (response.may_overturn, response.slides_on) = (may_overturn, slides_on);
         match stop {
             RunEnd::Overturned(block) => response.overturned_block = Some(block + 1),
             RunEnd::Collapsed(block) => response.collapsed_block = Some(block + 1),
@@ -449,6 +476,9 @@ impl<'p> SlidingRecorder<'p> {
         response
     }
 }
+
+/// Way that a slide has to go until friction under the weight has stopped it, as a share of the column's size, up to which it counts as ended.
+const VISIBLE_WAY: f64 = 1e-6;
 
 /// Way of a slide, as a share of the column's size, up to which nothing has slid but rounding.
 const CRITICAL_WAY: f64 = 1e-13;

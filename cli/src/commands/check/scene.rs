@@ -48,6 +48,9 @@ struct Findings {
     warnings: Vec<String>,
 }
 
+/// Rounding of a factor of restitution times Housner's ratio.
+const ROUNDING_OF_RATIOS: f64 = 1e-12;
+
 /// What gives way first at an interface: the contact slides, or it opens. The stack above counts as one body.
 #[derive(Debug, Serialize)]
 struct ContactFindings {
@@ -303,7 +306,7 @@ impl Findings {
 
     fn table_of_stacks(&self, text: &mut String, gravity: f64) {
         text.push_str(
-            "\nthe stack above each interface as one body, c half-width of its contact, h_P height of its centre of gravity:\n\
+            "\nthe stack above each interface as one body, c distance of its centre of gravity from the nearer end of its contact, h_P its height:\n\
              interface  c [m]    h_P [m]  alpha [rad]  p [rad/s]  opens at [m/s2]  [g]      Housner's ratio\n",
         );
         for stack in &self.stacks {
@@ -311,7 +314,7 @@ impl Findings {
                 text,
                 "{:<10} {:<8.4} {:<8.4} {:<12.4} {:<10.4} {:<16.4} {:<8.4} {:.4}",
                 stack.interface,
-                stack.stack.contact_half_width,
+                stack.stack.half_width,
                 stack.stack.centroid_height,
                 stack.slenderness,
                 stack.frequency_parameter,
@@ -344,6 +347,19 @@ impl Findings {
             ),
             _ => writeln!(text, "impacts: {factors} of the plastic relative rate, base first"),
         };
+        let gains = |(stack, factor): &(&thresholds::Row, &f64)| {
+            **factor != 1.0 && **factor * stack.housner_ratio > 1.0 + ROUNDING_OF_RATIOS
+        };
+        let gaining = self.stacks.iter().zip(&self.restitution_factors).filter(gains);
+        let gaining: Vec<String> = gaining.map(|(stack, _)| stack.interface.to_string()).collect();
+        if !gaining.is_empty() {
+            let _ = writeln!(
+                text,
+                "  with interface(s) {} alone the stack above would gain energy (factor times Housner's ratio above 1): restitution is left out \
+                 there",
+                gaining.join(", ")
+            );
+        }
     }
 
     fn friction(&self, text: &mut String, scene: &Scene) {

@@ -109,72 +109,110 @@ fn steady(values: &[f64], step: impl Fn(f64, f64) -> f64) -> bool {
     values.len() > 2 && values.windows(2).all(|pair| (step(pair[0], pair[1]) / first - 1.0).abs() < SAME)
 }
 
-/// Last part of a key of scenes, and the label of the quantity with its unit.
-const LABELS: [(&str, &str); 42] = [
-    ("alpha_degrees", "α [°]"),
-    ("alpha", "α [rad]"),
-    ("p", "p [rad/s]"),
-    ("rocking_period", "2π/p [s]"),
-    ("R", "R [m]"),
-    ("pga_uplift", "PGA / (g tan α)"),
-    ("pgv", "PGV [m/s]"),
-    ("pgv_uplift", "p PGV / (g tan α)"),
-    ("pgd", "PGD [m]"),
-    ("seed", "Seed"),
-    ("point", "Point of the sweep"),
-    ("component", "Component"),
-    ("amplitude_uplift", "a / (g tan α)"),
-    ("omega_p", "Ω / p"),
-    ("amplitude", "a [m/s²]"),
-    ("amplitude_g", "a [g]"),
-    ("velocity", "v [m/s]"),
-    ("omega", "Ω [rad/s]"),
-    ("frequency", "Frequency [Hz]"),
-    ("period", "Period [s]"),
-    ("start", "Start [s]"),
-    ("phase", "Phase [rad]"),
-    ("duration", "Duration [s]"),
-    ("gamma", "γ"),
-    ("pga", "Peak ground acc. [m/s²]"),
-    ("pga_g", "Peak ground acc. [g]"),
-    ("scale", "Scale of the record"),
-    ("damping", "Damping of the ground"),
-    ("eta", "η"),
-    ("blocks", "Blocks"),
-    ("half_width", "Half-width [m]"),
-    ("half_height", "Half-height [m]"),
-    ("density", "Density [kg/m²]"),
-    ("mass", "Mass [kg]"),
-    ("inertia", "Inertia [kg m²]"),
-    ("gravity", "g [m/s²]"),
-    ("friction", "Friction coefficient"),
-    ("friction.static", "Static friction coefficient"),
-    ("friction.kinetic", "Kinetic friction coefficient"),
-    ("t_end", "End of the run [s]"),
-    ("stick_angle", "Stick angle [rad]"),
-    ("overturn_angle", "Overturning angle [rad]"),
+/// Last part of a key of scenes (or the whole key, where the last part has another meaning elsewhere), and the name and unit of its quantity. A density has the
+/// unit of its column, which the key does not tell.
+const QUANTITIES: [(&str, &str, &str); 71] = [
+    ("alpha_degrees", "α", "°"),
+    ("alpha", "α", "rad"),
+    ("p", "p", "rad/s"),
+    ("rocking_period", "2π/p", "s"),
+    ("R", "R", "m"),
+    ("pga_uplift", "PGA / (g tan α)", ""),
+    ("pgv", "PGV", "m/s"),
+    ("pgv_uplift", "p PGV / (g tan α)", ""),
+    ("pgd", "PGD", "m"),
+    ("seed", "Seed", ""),
+    ("point", "Point of the sweep", ""),
+    ("component", "Component", ""),
+    ("amplitude_uplift", "a / (g tan α)", ""),
+    ("omega_p", "Ω / p", ""),
+    ("amplitude", "a", "m/s²"),
+    ("amplitude_g", "a", "g"),
+    ("velocity", "v", "m/s"),
+    ("omega", "Ω", "rad/s"),
+    ("frequency", "Frequency", "Hz"),
+    ("period", "Period", "s"),
+    ("start", "Start", "s"),
+    ("phase", "Phase", "rad"),
+    ("duration", "Duration", "s"),
+    ("gamma", "γ", ""),
+    ("pga", "Peak ground acc.", "m/s²"),
+    ("pga_g", "Peak ground acc.", "g"),
+    ("scale", "Scale of the record", ""),
+    ("damping", "Damping of the ground", ""),
+    ("eta", "η", ""),
+    ("blocks", "Blocks", ""),
+    ("half_width", "Half-width", "m"),
+    ("half_height", "Half-height", "m"),
+    ("density", "Density", ""),
+    ("mass", "Mass", "kg"),
+    ("inertia", "Inertia", "kg m²"),
+    ("gravity", "g", "m/s²"),
+    ("friction", "Friction coefficient", ""),
+    ("friction.static", "Static friction coefficient", ""),
+    ("friction.kinetic", "Kinetic friction coefficient", ""),
+    ("t_end", "End of the run", "s"),
+    ("stick_angle", "Stick angle", "rad"),
+    ("overturn_angle", "Overturning angle", "rad"),
+    ("θ", "", "rad"),
+    ("ω", "", "rad/s"),
+    ("width", "Width", "m"),
+    ("height", "Height", "m"),
+    ("diameter", "Diameter", "m"),
+    ("depth", "Depth", "m"),
+    ("bottom_half_width", "Half-width of the base", "m"),
+    ("top_half_width", "Half-width of the top", "m"),
+    ("bottom_width", "Width of the base", "m"),
+    ("top_width", "Width of the top", "m"),
+    ("bottom_diameter", "Diameter of the base", "m"),
+    ("top_diameter", "Diameter of the top", "m"),
+    ("centroid_height", "Height of the centroid", "m"),
+    ("factors", "Restitution factor", ""),
+    ("theta", "Initial θ", "rad"),
+    ("slide", "Initial slide", "m"),
+    ("x", "Initial x", "m"),
+    ("y", "Initial y", "m"),
+    ("vx", "Initial vx", "m/s"),
+    ("vy", "Initial vy", "m/s"),
+    ("initial.omega", "Initial ω", "rad/s"),
+    ("arias", "Arias intensity", "m/s"),
+    ("cav", "CAV", "m/s"),
+    ("sa", "Sa", "m/s²"),
+    ("sa_g", "Sa", "g"),
+    ("sa_period", "Period of Sa", "s"),
+    ("sa_damping", "Damping of Sa", ""),
+    ("dt", "Interval", "s"),
+    ("cycles", "Cycles", ""),
 ];
 
-/// Label of a key in the words of the field, or the last part of an unknown key. The label says if it is that of a block or of the vertical motion.
-fn label(key: &str) -> String {
+/// Name of the quantity of a key in the words of the field, and its unit, which may be empty; the last part of an unknown key. The name says which block,
+/// interface or motion it is of.
+fn quantity(key: &str) -> (String, &'static str) {
     let (above, last) = key.rsplit_once('.').unwrap_or(("", key));
-    let named = |name: &str| LABELS.iter().find(|(own, _)| *own == name).map(|(_, label)| *label);
-    let known = named(key).or_else(|| named(last)).unwrap_or(last);
-    let indexed = last.strip_suffix(']').and_then(|last| last.split_once('['));
-    match above {
-        "initial" if indexed.is_some() => {
-            let (name, block) = indexed.expect("it is there");
-            let (symbol, unit) = match name {
-                "theta" => ("θ", " [rad]"),
-                "omega" => ("ω", " [rad/s]"),
-                "vx" | "vy" => (name, " [m/s]"),
-                _ => (name, " [m]"),
-            };
-            format!("Initial {symbol} of block {block}{unit}")
-        }
-        "excitation.vertical" => format!("{known}, vertical"),
-        block if block.starts_with("block") => format!("{known}, {block}"),
-        _ => known.into(),
+    let (last, index) = match last.strip_suffix(']').and_then(|last| last.split_once('[')) {
+        Some((last, index)) => (last, Some(index)),
+        None => (last, None),
+    };
+    let whole = if above.is_empty() { last.to_string() } else { format!("{above}.{last}") };
+    let named = |name: &str| QUANTITIES.iter().find(|(own, _, _)| *own == name).map(|(_, name, unit)| (*name, *unit));
+    let (name, unit) = named(&whole).or_else(|| named(last)).unwrap_or((last, ""));
+    let block = above.strip_prefix("block[").and_then(|above| above.strip_suffix(']'));
+    let is_of_block = above == "initial" && last != "slide";
+    let name = match (block, index) {
+        (Some(block), _) => format!("{name} of block {block}"),
+        (None, Some(block)) if is_of_block => format!("{name} of block {block}"),
+        (None, Some(interface)) => format!("{name} of interface {interface}"),
+        (None, None) if above.ends_with("vertical") => format!("{name}, vertical"),
+        (None, None) => name.into(),
+    };
+    (name, unit)
+}
+
+/// Quantity and unit of a key: `Half-width of block 2 [m]`.
+fn label(key: &str) -> String {
+    match quantity(key) {
+        (name, "") => name,
+        (name, unit) => format!("{name} [{unit}]"),
     }
 }
 
@@ -185,10 +223,9 @@ pub fn title(key: &str, value: &str) -> String {
         ("blocks", count) => format!("{count} blocks"),
         ("file" | "record" | "component" | "kind" | "method", name) => name.into(),
         _ => {
-            let label = label(key);
-            let (name, unit) = label.split_once(" [").unwrap_or((&label, ""));
+            let (name, unit) = quantity(key);
             let value = value.parse().map_or_else(|_| value.to_string(), brief);
-            format!("{name} = {value} {}", unit.trim_end_matches(']')).trim_end().replace(" °", "°")
+            format!("{name} = {value} {unit}").trim_end().replace(" °", "°")
         }
     }
 }
@@ -247,8 +284,8 @@ mod tests {
         let expected = [
             "Static friction coefficient",
             "Friction coefficient",
-            "Peak ground acc. [m/s²], vertical",
-            "Mass [kg], block[2]",
+            "Peak ground acc., vertical [m/s²]",
+            "Mass of block 2 [kg]",
             "unknown",
         ];
         assert_eq!(labels, expected);
@@ -269,10 +306,16 @@ mod tests {
     #[test]
     fn keys_are_named_as_in_the_field() {
         assert_eq!(label("excitation.horizontal.omega_p"), "Ω / p");
-        assert_eq!(label("excitation.vertical.amplitude_g"), "a [g], vertical");
-        assert_eq!(label("block[2].mass"), "Mass [kg], block[2]");
+        assert_eq!(label("excitation.vertical.amplitude_g"), "a, vertical [g]");
+        assert_eq!(label("block[2].mass"), "Mass of block 2 [kg]");
         assert_eq!(["1", "5"].map(|count| title("column.blocks", count)), ["1 block", "5 blocks"]);
         assert_eq!(title("restitution.eta", "0.9"), "η = 0.9");
+        assert_eq!(title("block[2].half_height", "0.6"), "Half-height of block 2 = 0.6 m");
+        assert_eq!(title("excitation.vertical.frequency", "2"), "Frequency, vertical = 2 Hz");
+        assert_eq!(title("friction.kinetic[1]", "0.5"), "Kinetic friction coefficient of interface 1 = 0.5");
+        assert_eq!(label("initial.theta[1]"), "Initial θ of block 1 [rad]");
+        assert_eq!(label("initial.slide[2]"), "Initial slide of interface 2 [m]");
+        assert_eq!(label("restitution.factors[2]"), "Restitution factor of interface 2");
         assert_eq!(title("column.half_width", "0.4"), "Half-width = 0.4 m");
         assert_eq!(title("excitation.horizontal.file", "a/b.AT2"), "a/b.AT2");
         assert_eq!(shortened(&["r/a".into(), "s/a".into()]), ["r/a", "s/a"]);
