@@ -1,6 +1,7 @@
 //! Progress on a terminal, for what takes longer than a second.
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use std::fmt::Write;
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
@@ -19,12 +20,12 @@ const RESOLUTION: f64 = 1000.0;
 impl Progress {
     /// Progress of a run up to the time `t_end [s]`; `quiet` shows nothing.
     pub fn of_run(t_end: f64, quiet: bool) -> Progress {
-        Progress::new((t_end * RESOLUTION) as u64, 0, "{wide_bar} {percent}% {eta}", quiet)
+        Progress::new((t_end * RESOLUTION) as u64, 0, "{wide_bar} {percent}% {remaining}", quiet)
     }
 
     /// Progress over `count` points, `known` of which were computed before; `quiet` shows nothing.
     pub fn of_points(count: usize, known: usize, quiet: bool) -> Progress {
-        Progress::new(count as u64, known as u64, "{wide_bar} {human_pos}/{human_len} {per_sec} {eta}", quiet)
+        Progress::new(count as u64, known as u64, "{wide_bar} {human_pos}/{human_len} {per_sec} {remaining}", quiet)
     }
 
     fn new(length: u64, position: u64, template: &str, quiet: bool) -> Progress {
@@ -32,7 +33,8 @@ impl Progress {
             let bar = ProgressBar::hidden().with_position(position);
             bar.set_length(length);
             bar.reset_eta();
-            bar.with_style(ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()))
+            let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
+            bar.with_style(style.with_key("remaining", remaining))
         });
         Progress { bar, start: Instant::now() }
     }
@@ -57,5 +59,12 @@ impl Progress {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }
+    }
+}
+
+/// The time that is left; nothing until the first point is done, as points that were computed before say nothing of it.
+fn remaining(state: &ProgressState, out: &mut dyn Write) {
+    if state.per_sec() > 0.0 {
+        let _ = write!(out, "{:#}", HumanDuration(state.eta()));
     }
 }

@@ -7,6 +7,7 @@ use crate::record::Record;
 use crate::segment::Segment;
 use crate::spans::{divide, overlay};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 
 /// Bound of the relative rounding error of a time that is computed as a start plus a number of intervals.
 const ROUNDING_OF_TIME: f64 = 1e-12;
@@ -44,6 +45,13 @@ impl Excitation {
         warnings
     }
 
+    /// The warnings of several ground motions, each once, in the order of their first appearance.
+    pub fn warnings_of_all(excitations: impl IntoIterator<Item = Excitation>) -> Vec<String> {
+        let mut seen = BTreeSet::new();
+        let all = excitations.into_iter().flat_map(|excitation| excitation.warnings());
+        all.filter(|warning| seen.insert(warning.clone())).collect()
+    }
+
     /// The warning of components whose first samples are not simultaneous by the clock of the station.
     fn misaligned(&self) -> Option<String> {
         let (Motion::Record(horizontal), Motion::Record(vertical)) =
@@ -55,7 +63,7 @@ impl Excitation {
         let is_odd = apart.abs() > horizontal.dt().max(vertical.dt()) && apart.abs() < LONGEST_RECORDING;
         is_odd.then(|| {
             format!(
-                "record {}: by the times in the files it is {:.3} s {} than here beside the horizontal record {}; give each a `start` of its own, or trim one",
+                "record {}: by the times in the files it is {:.3} s {} than here beside the horizontal record {}; give each a `start` of its own, in [excitation.horizontal] and [excitation.vertical], or trim one",
                 vertical.source().file,
                 apart.abs(),
                 if apart > 0.0 { "later" } else { "earlier" },

@@ -331,6 +331,9 @@ impl Response {
         let mut numbers = rows.as_chunks::<8>().0.iter().map(|bytes| f64::from_le_bytes(*bytes));
         let mut next = || numbers.next().ok_or_else(damaged);
         let mut response = read.response;
+        if response.sliding.as_ref().is_some_and(|report| !report.is_of(blocks)) {
+            return Err(damaged());
+        }
         response.events = read.events;
         response.samples.reserve(read.rows.min(rows.len()));
         for _ in 0..read.rows {

@@ -43,6 +43,14 @@ pub fn scene_text(py: Python<'_>, file: PathBuf) -> PyResult<String> {
     rocking::scene_file::text(&file).map_err(|refused| error::scene(py, &refused))
 }
 
+/// The table of a record in memory in a text that is shown: it is refused where the text is read as a scene, as it has no samples.
+fn in_memory(component: &str, Record { record, .. }: &Record) -> String {
+    let (samples, dt) = (record.accel().len(), record.dt());
+    format!(
+        "\n[excitation.{component}]\nkind = \"record\"\ndt = {dt:?}\nfile = \"(a record in memory of {samples} samples; Scene.toml has them)\"\n"
+    )
+}
+
 #[pymethods]
 impl Scene {
     /// Reads TOML text; `file` is named in errors, and records are found relative to it.
@@ -69,7 +77,7 @@ impl Scene {
                 return Err(error::beside_station(py, &file, &format!("excitation.{key}")));
             }
         }
-        let text = to_toml(keys)?;
+        let mut text = to_toml(keys)?;
         let mut scene = rocking::Scene::from_toml(&text, &file).map_err(|refused| error::scene(py, &refused))?;
         if horizontal.is_some() || vertical.is_some() {
             let motion = |record: &Record| Motion::Record(record.record.clone());
@@ -83,6 +91,9 @@ impl Scene {
                 scene.options.t_end = t_end;
             }
             scene.check().map_err(|errors| error::faults(py, &file, &errors))?;
+            for (key, record) in [("horizontal", horizontal), ("vertical", vertical)] {
+                text.push_str(&record.map_or_else(String::new, |record| in_memory(key, record)));
+            }
         }
         Ok(Scene { scene: Arc::new(scene), origin: Arc::new(Origin { file, text }) })
     }

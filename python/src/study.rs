@@ -121,6 +121,12 @@ impl Ida {
         self.ida.records().iter().map(|record| StudyRecord { record: record.clone() }).collect()
     }
 
+    /// Warnings about the records.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.ida.warnings()
+    }
+
     /// Limit states of a study's file.
     #[getter]
     fn states(&self) -> Vec<String> {

@@ -52,6 +52,11 @@ impl Sweep {
         self.sweep.len()
     }
 
+    /// Warnings about the ground motions of all points, or of this number of evenly spread ones.
+    fn warnings(&self, py: Python<'_>, most: usize) -> Vec<String> {
+        py.detach(|| self.sweep.warnings(most))
+    }
+
     #[getter]
     fn ask(&self) -> &'static str {
         self.sweep.ask.name()

@@ -238,3 +238,19 @@ def test_a_data_set_has_places_and_forces_of_sliding_blocks():
     for array in (run.alpha, rk.Record.synthetic(1).accel):
         with pytest.raises(ValueError, match="read-only"):
             array *= 2
+
+
+def test_the_text_of_a_scene_with_a_record_in_memory_is_no_scene_without_it() -> None:
+    scene = rk.Scene(rk.Column.prisms(1, half_width=0.3, half_height=1.5), rk.Record.synthetic(1, pga=4.0))
+    text = rk.simulate(scene).summary["scene"]["text"]
+    with pytest.raises(rk.SceneError, match="Scene.toml has them"):
+        rk.Scene.from_toml(text)
+    assert rk.simulate(rk.Scene.from_toml(scene.toml)).outcome == "rocks"
+
+
+def test_a_pickle_whose_sliding_lacks_a_list_is_refused() -> None:
+    column = rk.Column.prisms(2, half_width=0.4, half_height=1.6)
+    run = rk.simulate(rk.Scene(column, rk.Record.synthetic(1, duration=2, pga=5.0), friction=0.3, t_end=1))
+    damaged = pickle.dumps(run).replace(b'"flights":', b'"flightz":')
+    with pytest.raises(ValueError, match="damaged"):
+        pickle.loads(damaged)

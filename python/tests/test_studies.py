@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pickle
 import sys
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -545,3 +546,63 @@ def test_bands_that_are_not_there_are_none():
 def test_a_range_is_an_axis():
     scene = rk.Scene(rk.Column.prisms(1, half_width=0.4, half_height=1.6), {"kind": "synthetic", "pgv": 0.5}, eta=0.9)
     assert len(rk.sweep(scene, {"seed": range(5)})) == 5
+
+
+def without_unit(folder: Path, name: str) -> Path:
+    """A record file whose header does not state its unit."""
+    samples = " ".join(f"{0.1 * np.sin(0.6 * place) * (1 - place / 399):.6f}" for place in range(400))
+    file = folder / name
+    file.write_text(f"SOME DATA BASE\nSOMEWHERE\nACCELERATION TIME SERIES\nNPTS= 400, DT= .0100 SEC\n{samples}\n")
+    return file
+
+
+def test_what_is_to_be_known_of_records_is_a_warning_of_studies_and_sweeps(tmp_path: Path) -> None:
+    without_unit(tmp_path, "X.AT2")
+    record = rk.Record.read(tmp_path / "X.AT2")
+    column = rk.Column.prisms(1, half_width=0.3, half_height=1.5)
+    with pytest.warns(UserWarning, match="X.AT2.*unit"):
+        analysis = rk.Ida(column, [record], "pgv", [0.3], trust=False)
+    assert len(analysis.warnings) == 1
+    with warnings.catch_warnings():
+        # Those who are given the analysis have been told.
+        warnings.simplefilter("error")
+        assert pickle.loads(pickle.dumps(analysis)).warnings == analysis.warnings
+        analysis.run()
+    study = tmp_path / "study.toml"
+    study.write_text('measure = "pgv"\nlevels = [0.3]\ntrust = false\n[records]\nfiles = ["X.AT2"]\n[scene.column]\nblocks = 1\nhalf_width = 0.3\nhalf_height = 1.5\n')
+    with pytest.warns(UserWarning, match="unit"):
+        rk.Study.load(study)
+    scene = rk.Scene(column, {"kind": "record", "file": str(tmp_path / "X.AT2")})
+    with pytest.warns(UserWarning, match="unit"):
+        rk.sweep(scene, {"excitation.horizontal.scale": [1.0, 2.0]})
+    # A record that begins before the run is cut there.
+    with pytest.warns(UserWarning, match="record cut: the horizontal ground motion is cut"):
+        rk.Ida(column, [rk.Record.synthetic(1, duration=6).starting_at(-3).named("cut")], "pgv", [0.3])
+
+
+def test_records_of_a_study_do_not_change_and_have_the_names_of_the_command_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    record = rk.StudyRecord("a", rk.Record.synthetic(1))
+    with pytest.raises(AttributeError):
+        record.horizontal = rk.Record.synthetic(2)  # type: ignore[misc]
+    copy = pickle.loads(pickle.dumps(record))
+    assert (copy.name, copy.horizontal, copy.vertical) == (record.name, record.horizontal, None)
+    (tmp_path / "d").mkdir()
+    for name in ("A_X.csv", "B_X.csv"):
+        rk.Record.synthetic(1).to_csv(tmp_path / "d" / name)
+    monkeypatch.chdir(tmp_path)
+    assert [one.name for one in rk.records("d")] == ["d/A_X.csv", "d/B_X.csv"]
+
+
+def test_cells_that_are_no_numbers_are_named() -> None:
+    table = pd.DataFrame({"record": ["a", "b"], "pgv": [0.1, 0.2], "outcome": ["rocks", "rocks"], "peak_1": [0.1, 0.2]})
+    for column, cells, told in [
+        ("pgv", ["0.1", "much"], r"iloc\[1\], column `pgv`: 'much' is no number"),
+        ("peak_1", [0.1, "high"], r"iloc\[1\], column `peak_1`: 'high' is no number"),
+        ("pgv", pd.to_timedelta([1, 2], unit="s"), "column `pgv` has times"),
+        ("peak_1", [0.1, -0.2], "column `peak_1`: -0.2 is below zero"),
+    ]:
+        with pytest.raises(rk.StudyError, match=told):
+            rk.Study(table.assign(**{column: cells}), "pgv").fragility("peak > 0.15", replicates=0)
+    # Names of columns that are numbers are those of columns of text.
+    study = rk.Study(table.assign(**{"0": 1.0}).rename(columns={"0": 0}), "pgv")
+    assert study.stripes.runs.tolist() == [1, 1]

@@ -57,8 +57,8 @@ pub struct ContactTimes {
 const LEAST_SHARE_OF_GROUND: f64 = 1e-6;
 
 impl SlidingReport {
-    /// Whether the report has one entry per interface in each list, and finite slides, energies and instants.
-    pub(crate) fn is_of(&self, blocks: usize) -> bool {
+    /// Whether the report is one of this number of blocks: it has one entry per interface in each list, and finite slides, energies and instants.
+    pub fn is_of(&self, blocks: usize) -> bool {
         let lengths = [&self.peak_slide, &self.residual_slide, &self.way_slid];
         let sums =
             [self.highest_flight, self.friction_work, self.impact_losses, self.ground_work, self.ground_exchange];

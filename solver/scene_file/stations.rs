@@ -140,11 +140,16 @@ impl Reader<'_> {
         let with_vertical = table.flag("vertical")?.unwrap_or(false);
         let refuse = |key: &str, problem: String| Fault::of_record(table, key, self.beside(&name), problem);
         let components = self.components(table, &name, &options)?;
-        let known = components.iter().map(|component| component.name.as_str()).collect::<Vec<_>>().join(", ");
+        let listed = |is_taken: fn(&&Component) -> bool| {
+            let names: Vec<&str> =
+                components.iter().filter(is_taken).map(|component| component.name.as_str()).collect();
+            if names.is_empty() { "no others".into() } else { names.join(", ") }
+        };
         let named = Component::named(&components, &requested);
         let Some(horizontal) = named.into_iter().find(|component| component.direction == Direction::Horizontal) else {
             let problem = format!(
-                "it has no horizontal component `{requested}`, only {known}; choose H1, H2 or the end of a file's name, or leave the record out"
+                "it has no horizontal component `{requested}`, only {}; choose H1, H2 or the end of a file's name, or leave the record out",
+                listed(|component| component.direction == Direction::Horizontal)
             );
             return Err(refuse("component", problem));
         };
@@ -153,8 +158,10 @@ impl Reader<'_> {
             (false, _) => None,
             (true, Some(up)) => Some(up.record.clone()),
             (true, None) => {
-                let problem =
-                    format!("it has no vertical component, only {known}; add its file, or leave `vertical` out");
+                let problem = format!(
+                    "it has no vertical component, only {}; add its file, or leave `vertical` out",
+                    listed(|_| true)
+                );
                 return Err(refuse("vertical", problem));
             }
         };

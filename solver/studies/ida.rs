@@ -236,6 +236,22 @@ impl Ida {
         &self.records
     }
 
+    /// Warnings about its records, a sentence each, each once ([`Excitation::warnings`]).
+    pub fn warnings(&self) -> Vec<String> {
+        let mut seen = HashSet::new();
+        let of = |record: &StudyRecord| {
+            let [horizontal, vertical] =
+                [Some(&record.horizontal), record.vertical.as_ref()].map(|own| own.cloned().map(Motion::Record));
+            // Those about a file name it.
+            let named = |warning: String| match warning.starts_with("record ") {
+                true => warning,
+                false => format!("record {}: {warning}", record.name),
+            };
+            Excitation { horizontal, vertical }.warnings().into_iter().map(named).collect::<Vec<_>>()
+        };
+        self.records.iter().flat_map(of).filter(|warning| seen.insert(warning.clone())).collect()
+    }
+
     /// Its measure.
     pub fn intensity(&self) -> Intensity {
         self.intensity

@@ -79,6 +79,14 @@ pub enum WrongCell {
         /// The level.
         level: f64,
     },
+    /// A peak below zero.
+    #[error("column `peak_{block}`: {peak} is below zero")]
+    Peak {
+        /// Number of the block, from 1.
+        block: usize,
+        /// The peak.
+        peak: f64,
+    },
     /// Nothing about the trust in a run.
     #[error("column `trust`: `{found}` is neither determined nor not-determined")]
     Trust {
@@ -94,6 +102,9 @@ impl TryFrom<Cells<'_>> for Observation {
         let Cells { record, level, outcome, trust, has_uplift, peaks, residual_slides } = cells;
         if !(level.is_finite() && level > 0.0) {
             return Err(WrongCell::Level { level });
+        }
+        if let Some((place, peak)) = peaks.iter().copied().enumerate().find(|(_, peak)| *peak < 0.0) {
+            return Err(WrongCell::Peak { block: place + 1, peak });
         }
         let fate = match outcome {
             None | Some(ERROR) => None,
@@ -312,6 +323,8 @@ mod tests {
         assert_eq!(fate("rocks", Some("")), Ok((Some(Fate::Rocks), true, 1)));
         assert_eq!(fate("falls over", None), Err(WrongCell::Outcome { found: "falls over".into() }));
         assert_eq!(fate("rocks", Some("no")), Err(WrongCell::Trust { found: "no".into() }));
+        let sunk = Observation::try_from(Cells { peaks: vec![0.1, -0.3], ..cells("rocks", None, None) });
+        assert_eq!(sunk, Err(WrongCell::Peak { block: 2, peak: -0.3 }));
         assert!(!read("slides", None, Some(false)).expect("an outcome").has_uplift);
         // A column that collapsed without a word on uplift has reached that state.
         assert_eq!(LimitState::Uplift.is_reached(&read("collapses", None, None).expect("an outcome")), Some(true));

@@ -16,6 +16,7 @@ use crate::scene_file::{SceneFileError, Setting, Template, VariedExcitation};
 use crate::trust::{TrustOptions, follow_run};
 use crate::validity::{ContactNeeds, Validity};
 use rayon::prelude::*;
+use rocking_ground::Excitation;
 use std::ops::{ControlFlow, Range};
 use std::path::PathBuf;
 
@@ -340,6 +341,12 @@ impl Sweep {
         let count = points.min(most);
         let steps = (count.max(2) - 1) as u128;
         (0..count).map(move |place| ((points - 1) as u128 * place as u128 / steps) as usize)
+    }
+
+    /// Warnings about the ground motions of its points, a sentence each, each once: of all points, or of `most` evenly spread ones.
+    pub fn warnings(&self, most: usize) -> Vec<String> {
+        let scenes = self.evenly_spread(most).filter_map(|point| self.scene(point).ok());
+        Excitation::warnings_of_all(scenes.map(|scene| scene.excitation))
     }
 
     /// The axes that are not sampled.

@@ -13,7 +13,10 @@ const TIGHTER: f64 = 0.01;
 
 /// Relative changes of excitation and sizes. The larger one is finer than any record or drawing. The smaller one is finer than single precision; its
 /// growth can still be measured where the larger one has made the runs part.
-const CHANGES: [f64; 4] = [1e-9, -1e-9, 1e-6, -1e-6];
+const CHANGES: [f64; 4] = [1e-9, -1e-9, LARGEST_CHANGE, -LARGEST_CHANGE];
+
+/// The larger change: no record and no drawing is known to six digits.
+pub(super) const LARGEST_CHANGE: f64 = 1e-6;
 
 /// The change that distinguishes a companion from the run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -4,13 +4,14 @@
 //! scene ──> companions.rs   the scene at a tighter tolerance; excitation and sizes changed by 1e-9 and 1e-6
 //!       ──> history.rs      angles and slides of two runs side by side: until when they agree, by how much a change has grown
 //!       ──> band.rs         the smallest and the largest angle of all runs, over time
+//!       ──> further.rs      more changes of 1e-6, where they make the angles part before the verdict is certain
 //!       ──> verdict.rs      the outcome of each run: stands, overturns, collapses, or nothing that is known
 //!       ──> fold.rs         the smallest change of the shaking, among a few, that changes the verdict
 //! ```
 //!
 //! The *horizon* is the time up to which the run agrees, to [`AGREEMENT`], with the companions that differ by the tolerance or by 1e-9. Up to then
 //! the scene determines the angles, and the solver finds them. A verdict is *determined* if it is certain within the horizon and all companions have
-//! the same one, those with changes of 1e-6 too. Beyond the horizon neither angles nor verdict are known: slender stacks in long shaking are chaotic,
+//! the same one, those with changes of 1e-6 too: four of these, or 28 where they have parted from the run before its verdict is certain. Beyond the horizon neither angles nor verdict are known: slender stacks in long shaking are chaotic,
 //! and no tolerance helps. `undetermined` has another meaning: a run with friction ends so where no motion follows from the laws of contact
 //! ([`StopReason::Undetermined`]).
 //!
@@ -24,11 +25,14 @@ mod band;
 
 mod fold;
 
+mod further;
+
 mod verdict;
 
 pub use band::Band;
 pub use companions::{Change, Companion};
 pub use fold::{Fold, Turn};
+pub use further::Further;
 pub use history::AGREEMENT;
 pub use verdict::Verdict;
 
@@ -86,6 +90,10 @@ pub struct Trust {
     pub same_block: bool,
     /// The companions.
     pub companions: Vec<Companion>,
+    /// More companions with changes up to 1e-6; `None` where the nine decide: without them the verdict is not determined, or all agree with the run until it
+    /// is certain.
+    #[serde(default)]
+    pub further: Option<Further>,
     /// The search for the change of the shaking that changes the verdict. `None` unless requested, without ground motion, and where the verdict is
     /// not determined.
     pub fold: Option<Fold>,
@@ -188,7 +196,11 @@ pub fn follow_run_observed(
     let same_block = runs.iter().all(|(_, run)| run.as_ref().is_some_and(|run| run.lost_block() == block));
     let certain_at = certain_at(scene, response, run)?;
     let is_settled = !matches!(verdict, Verdict::Undetermined | Verdict::MayOverturn);
-    let determined = is_settled && same_verdict && horizon >= certain_at;
+    let input_horizon = until(|_| true);
+    let is_certain = is_settled && same_verdict && horizon >= certain_at;
+    let needs_further = is_certain && input_horizon < certain_at;
+    let further = if needs_further { Some(Further::follow(scene, verdict, run)?) } else { None };
+    let determined = is_certain && further.is_none_or(|further| further.others == 0);
     let (amplification, grows_on) = companions::amplification(&companions);
     let all = || std::iter::once(&own).chain(runs.iter().filter_map(|(_, run)| run.as_ref()));
     let outcome = match (verdict, determined) {
@@ -203,7 +215,7 @@ pub fn follow_run_observed(
         verdict,
         certain_at,
         horizon,
-        input_horizon: until(|_| true),
+        input_horizon,
         solver_horizon: until(|one| matches!(one.change, Change::Tolerance(_))),
         ends_at,
         compared_every: row_interval(&scene.column, ends_at),
@@ -213,6 +225,7 @@ pub fn follow_run_observed(
         fold: if asked.fold && determined { Fold::search(scene, response, verdict, run)? } else { None },
         band: if asked.band { Band::of(all(), scene.column.len()) } else { Band::default() },
         companions,
+        further,
     })
 }
 
@@ -288,7 +301,7 @@ impl Trust {
 
     /// Trust in a line: if the verdict is determined, how many companions agree; if not, how far angles are known and the verdicts of the companions.
     pub fn sentence(&self) -> String {
-        let count = self.companions.len();
+        let count = self.companions.len() + self.further.map_or(0, |further| further.runs);
         let grown = format!("{}{}", if self.grows_on { "more than " } else { "" }, times(self.amplification));
         if self.determined {
             let until = match self.reaches_the_end() {
@@ -305,6 +318,14 @@ impl Trust {
                 text.push_str(&fold.sentence());
             }
             return text;
+        }
+        if let Some(Further { others, .. }) = self.further {
+            return format!(
+                "changes of 1e-6 leave angles known up to t = {:.4} s only{}; small changes grow {grown} times; of {count} companions {others} have \
+                 another verdict",
+                self.input_horizon,
+                self.spacing(self.input_horizon)
+            );
         }
         let verdicts = self.verdicts();
         let verdicts_in_words = match &verdicts[..] {

@@ -15,14 +15,14 @@ use crate::table::column::{Column, Kind, Rows};
 use crate::table::growing::Growing;
 use crate::table::{Format, open};
 use crate::terminal::{json, print, warn_of_some};
-use crate::text::{distinct, printable, shown};
+use crate::text::{printable, shown};
 use csv::StringRecord;
+use rocking::Fate;
 use rocking::intensity::Intensity;
 use rocking::studies::{
-    DEFAULT_STATES, FRACTILES, FragilityOptions, Ida, IdaFile, IdaRun, LimitState, Stripe, StudyRecord, stripes,
+    DEFAULT_STATES, FRACTILES, FragilityOptions, Ida, IdaFile, IdaRun, LimitState, Stripe, stripes,
 };
 use rocking::sweep::ERROR;
-use rocking::{Excitation, Fate, Motion};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -41,7 +41,7 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     let target = output::target(out)?;
     let threads = threads(request.threads)?;
     if !request.quiet {
-        warn_of_some(&warnings(ida));
+        warn_of_some(&ida.warnings());
     }
     let columns = columns(ida);
     let (table, resumed) = filled(request, ida, digest(inputs)?, &target, &columns, &threads)?;
@@ -109,16 +109,6 @@ fn filled(
         move |index| cells(ida, &run(index), columns.len())
     })?;
     Ok((table, resumed))
-}
-
-/// The warnings of the records of a study, each once.
-pub fn warnings(ida: &Ida) -> Vec<String> {
-    let of = |record: &StudyRecord| {
-        let [horizontal, vertical] =
-            [Some(&record.horizontal), record.vertical.as_ref()].map(|own| own.cloned().map(Motion::Record));
-        Excitation { horizontal, vertical }.warnings()
-    };
-    distinct(ida.records().iter().flat_map(of))
 }
 
 /// Draws the curves of a finished table into `picture`, and the fragility into a file beside `picture`: of the limit states, and with the bands, of the table of
@@ -261,7 +251,8 @@ fn tally(ida: &Ida, stripes: &[Stripe]) -> String {
     let is_open = |(fate, count): (&Fate, usize)| *fate == Fate::NotDetermined && count > 0;
     if fates.clone().any(is_open) {
         text.push_str(
-            "not determined: companions end otherwise, or the column may be falling where the run ends (a longer free_swing settles that)\n",
+            "not determined: companions end otherwise, or part from the run before its verdict is certain (the book, trust; with trust = false such runs \
+             count as they end), or the column may be falling where the run ends (a longer free_swing settles that)\n",
         );
     }
     text

@@ -14,7 +14,7 @@ use crate::table::Format;
 use crate::table::column::{Column, Kind};
 use crate::table::growing::Growing;
 use crate::terminal::{json, print, warn_of_some};
-use crate::text::{distinct, printable, shown};
+use crate::text::{printable, shown};
 use csv::StringRecord;
 use rocking::Fate;
 use rocking::ground::read_file;
@@ -40,7 +40,7 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
     let columns = columns(&sweep)?;
     let threads = threads(request.threads)?;
     if !request.quiet {
-        warn_of_some(&warnings(&sweep));
+        warn_of_some(&sweep.warnings(POINTS_READ));
     }
     let digest = TableDigest::of(&sweep, &request.file)?;
     let (table, resumed) = filled(request, &sweep, digest, &target, &columns, &threads)?;
@@ -141,12 +141,6 @@ pub fn already_there(rows: usize) -> String {
 
 /// Largest number of points whose scenes are read before a sweep runs: a scene takes some 10 µs, and each record is read once.
 pub const POINTS_READ: usize = 1000;
-
-/// The warnings of the ground motions of a sweep, each once. They are those of all points, or of [`POINTS_READ`] evenly spread ones.
-fn warnings(sweep: &Sweep) -> Vec<String> {
-    let scenes = sweep.evenly_spread(POINTS_READ).filter_map(|point| sweep.scene(point).ok());
-    distinct(scenes.flat_map(|scene| scene.excitation.warnings()))
-}
 
 /// A pool of `count` threads; without a count, as many as the machine has.
 pub fn threads(count: Option<u16>) -> Result<rayon::ThreadPool, Failure> {

@@ -2,7 +2,7 @@
 //!
 //! A frame is a row of `response.csv`, or the column just before or just after an event. An event has two frames at one time, so that
 //! the player interpolates (cubic Hermite, from angles and rates) within smooth phases only and never across an impact. Angles are
-//! written to 1e-10 rad. The ground's displacement only serves the picture: the rows integrated as a record, less a constant velocity.
+//! written to 1e-10 rad. The ground's displacement only serves the picture: the rows integrated as a record, without a drift.
 
 use crate::number::{fixed, significant};
 use crate::plot;
@@ -33,8 +33,9 @@ const GROUND_DIGITS: usize = 5;
 /// Digits behind the point of joints `[m]`.
 const JOINT_DIGITS: usize = 6;
 
-/// A drift below this share of the largest ground velocity is not taken out: that of a pulse that ends at rest is only rounding.
-const NO_DRIFT: f64 = 1e-3;
+/// Way of a drift over the range of the motion around it, from which on it is taken out: a motion that the run ends in its first swing is no drift. If it were
+/// smaller, pulses that overturn a column would be drawn the wrong way; if it were larger, the base lines of records would carry the ground out of the picture.
+const DRIFT_OVER_MOTION: f64 = 4.0;
 
 /// One frame.
 struct Frame<'a> {
@@ -142,30 +143,21 @@ struct Ground {
 }
 
 impl Ground {
-    /// Integrates the accelerations of the rows twice from rest, linear between rows. Takes out the mean velocity of the second half of the time,
-    /// unless it is negligible: the base line of a record, or a harmonic motion that starts from rest, would carry the ground away.
+    /// Integrates the accelerations of the rows twice from rest, without the drift.
     fn new(results: &Results) -> Ground {
         let rows = &results.response.samples;
-        let (first, last) = (rows[0].t, rows[rows.len() - 1].t);
-        let half = rows.partition_point(|row| row.t < 0.5 * (first + last));
+        let times: Vec<f64> = rows.iter().map(|row| row.t).collect();
         let (mut displacement, mut drift) = (vec![[0.0; 2]; rows.len()], [0.0; 2]);
         for axis in 0..2 {
-            let (mut velocity, mut largest) = (0.0, 0.0f64);
-            let mut own = vec![0.0; rows.len()];
-            for (place, pair) in rows.windows(2).enumerate() {
-                let (h, [a, b]) = (pair[1].t - pair[0].t, [0, 1].map(|side: usize| pair[side].ground[axis]));
-                own[place + 1] = own[place] + h * (velocity + h * (2.0 * a + b) / 6.0);
-                velocity += 0.5 * h * (a + b);
-                largest = largest.max(velocity.abs());
-            }
-            let mean = (own[rows.len() - 1] - own[half]) / (last - rows[half].t);
-            // A single row has no mean velocity, and accelerations read from a folder may be too large to integrate.
-            if !own.iter().all(|d| d.is_finite()) || !mean.is_finite() {
+            let accelerations: Vec<f64> = rows.iter().map(|row| row.ground[axis]).collect();
+            let own = integrated(&times, &accelerations);
+            drift[axis] = drift_of(&times, &own);
+            // Accelerations read from a folder may be too large to integrate.
+            if !own.iter().all(|d| d.is_finite()) {
                 continue;
             }
-            drift[axis] = if mean.abs() > NO_DRIFT * largest { mean } else { 0.0 };
-            for ((row, place), d) in rows.iter().zip(&mut displacement).zip(own) {
-                place[axis] = d - drift[axis] * (row.t - first);
+            for ((t, place), d) in times.iter().zip(&mut displacement).zip(own) {
+                place[axis] = d - drift[axis] * (t - times[0]);
             }
         }
         Ground { displacement, drift }
@@ -180,6 +172,41 @@ impl Ground {
         let between = |a: [f64; 2], b: [f64; 2]| [0, 1].map(|axis| a[axis] + share * (b[axis] - a[axis]));
         [between(rows[before].ground, rows[index].ground), between(self.displacement[before], self.displacement[index])]
     }
+}
+
+/// Displacement at these times `[m]` from accelerations `[m/s²]`, linear between them, from rest. If a motion comes to its end, and the velocity then is no
+/// more than the error that jumps of the acceleration cause between two rows, it ends at rest.
+fn integrated(times: &[f64], accelerations: &[f64]) -> Vec<f64> {
+    let last = times.len() - 1;
+    let moves_until = accelerations.iter().rposition(|a| *a != 0.0).map_or(0, |place| (place + 1).min(last));
+    let pairs = || times.windows(2).zip(accelerations.windows(2));
+    let [left, error] = pairs().fold([0.0, 0.0f64], |[velocity, error], (t, a)| {
+        let h = t[1] - t[0];
+        [velocity + 0.5 * h * (a[0] + a[1]), error.max(h * (a[1] - a[0]).abs())]
+    });
+    let span = times[moves_until] - times[0];
+    let excess = if moves_until < last && left.abs() <= error { left / span } else { 0.0 };
+    let (mut displacement, mut velocity) = (vec![0.0; times.len()], 0.0);
+    for (place, (t, a)) in pairs().enumerate() {
+        let h = t[1] - t[0];
+        let [a, b] = [0, 1].map(|side: usize| a[side] - if place < moves_until { excess } else { 0.0 });
+        displacement[place + 1] = displacement[place] + h * (velocity + h * (2.0 * a + b) / 6.0);
+        velocity = if excess != 0.0 && place + 1 >= moves_until { 0.0 } else { velocity + 0.5 * h * (a + b) };
+    }
+    displacement
+}
+
+/// The mean velocity of the second half of the time `[m/s]`, if it is a drift: it carries the ground far beyond its motion to and fro, as the base line of a
+/// record does, or a harmonic motion that starts from rest. Zero otherwise.
+fn drift_of(times: &[f64], displacement: &[f64]) -> f64 {
+    let (first, last) = (times[0], times[times.len() - 1]);
+    let half = times.partition_point(|t| *t < 0.5 * (first + last));
+    // A single row has no mean velocity.
+    let mean = (displacement[displacement.len() - 1] - displacement[half]) / (last - times[half]);
+    let around = times.iter().zip(displacement).map(|(t, d)| d - mean * (t - first));
+    let [low, high] = around.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], d| [low.min(d), high.max(d)]);
+    let is_drift = mean.is_finite() && mean.abs() * (last - first) > DRIFT_OVER_MOTION * (high - low);
+    if is_drift { mean } else { 0.0 }
 }
 
 /// The JSON that the player reads; `player/state.js` lists its keys.
@@ -324,4 +351,35 @@ pub fn notes(results: &Results) -> String {
         notes.push(format!("The run is long: one row in {stride} of response.csv is kept here, and every event."));
     }
     notes.iter().map(|note| format!("<p class=\"note\">{note}</p>\n")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    /// Displacement and drift of an acceleration at rows every hundredth of a second.
+    fn of(end: f64, acceleration: impl Fn(f64) -> f64) -> (Vec<f64>, f64) {
+        let times: Vec<f64> = (0..=(100.0 * end).round() as usize).map(|place| 0.01 * place as f64).collect();
+        let accelerations: Vec<f64> = times.iter().map(|t| acceleration(*t)).collect();
+        let displacement = integrated(&times, &accelerations);
+        let drift = drift_of(&times, &displacement);
+        (displacement, drift)
+    }
+
+    #[test]
+    fn drift_is_what_carries_the_ground_away() {
+        // A pulse that ends at rest, cut in its middle and followed to its end: displaced by A T² / 2π.
+        let sine = |t: f64| if t < 1.0 { (TAU * t).sin() } else { 0.0 };
+        assert_eq!([0.7, 1.0, 9.0].map(|end| of(end, sine).1), [0.0; 3]);
+        let displaced = of(9.0, sine).0[900];
+        assert!((displaced - 1.0 / TAU).abs() < 1e-4, "{displaced}");
+        // A cosine jumps at its ends: what rows make of the jumps is no velocity.
+        let cosine = |t: f64| if t < 1.0 { (TAU * t).cos() } else { 0.0 };
+        let (displacement, drift) = of(9.0, cosine);
+        assert!(drift == 0.0 && displacement[900].abs() < 1e-2, "{drift} {}", displacement[900]);
+        // From rest a harmonic motion goes on with A / Ω on average.
+        let (_, drift) = of(9.0, |t| (TAU * t).sin());
+        assert!((drift - 1.0 / TAU).abs() < 0.02, "{drift}");
+    }
 }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import warnings
 from typing import Any
 
 
@@ -84,3 +85,13 @@ class StudyError(RockingError, ValueError):
 
 class FolderError(RockingError, OSError):
     """The folder of a run cannot be written or read."""
+
+
+MOST_WARNINGS = 10
+
+
+def warn(sentences: list[str], stacklevel: int) -> None:
+    """Warns of the first of these, and of how many others there are, ``stacklevel`` calls above."""
+    others = len(sentences) - MOST_WARNINGS
+    for sentence in sentences[:MOST_WARNINGS] + ([f"and {others} more"] if others > 0 else []):
+        warnings.warn(sentence, stacklevel=stacklevel)

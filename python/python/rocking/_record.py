@@ -235,7 +235,7 @@ class Record:
         return self._record.spectrum(np.ascontiguousarray(wanted.ravel()), number("damping", damping)).reshape(wanted.shape)
 
     def to_csv(self, file: str | os.PathLike[str] | None = None) -> str | None:
-        """The record as a table of times and accelerations that reads back to the same samples; text where no file is given."""
+        """The record as a table of times from its first sample and accelerations that reads back to the same samples, starting at zero; text where no file is given."""
         text = self._record.to_csv()
         if file is None:
             return text
@@ -276,15 +276,32 @@ class Record:
 
 
 class StudyRecord:
-    """Components of one record under a name: horizontal, and perhaps vertical."""
+    """Components of one record under a name: horizontal, and perhaps vertical; not changed after it was made."""
+
+    __slots__ = ("_name", "_horizontal", "_vertical")
 
     def __init__(self, name: str, horizontal: Record, vertical: Record | None = None) -> None:
         for direction, record in (("horizontal", horizontal), ("vertical", vertical)):
             if not isinstance(record, Record) and not (record is None and direction == "vertical"):
                 raise TypeError(f"{direction} is of {type(record).__name__}; give a Record")
-        self.name = text("name", name)
-        self.horizontal = horizontal
-        self.vertical = vertical
+        self._name = text("name", name)
+        self._horizontal = horizontal
+        self._vertical = vertical
+
+    @property
+    def name(self) -> str:
+        """Name of the record, as in the table of a study."""
+        return self._name
+
+    @property
+    def horizontal(self) -> Record:
+        """The horizontal component."""
+        return self._horizontal
+
+    @property
+    def vertical(self) -> Record | None:
+        """The vertical component, if it shakes as well."""
+        return self._vertical
 
     def _native(self) -> _rocking.StudyRecord:
         return _rocking.StudyRecord(self.name, self.horizontal._record, None if self.vertical is None else self.vertical._record)
@@ -376,7 +393,7 @@ def records(
             raise SceneError(f"{path}: this is no folder; give one of record files", path, key="records.folder", problem="this is no folder")
         raise MissingFileError(f"{path}: there is no such folder; check the path", path)
     keys: dict[str, Any] = {
-        "folder": path,
+        "folder": os.fsdecode(folder),
         "component": component,
         "vertical": vertical,
         "units": units,

@@ -16,7 +16,7 @@ import pandas as pd
 
 from . import _rocking
 from ._arguments import flag, number, numbers, optional, text, whole
-from ._errors import StudyError
+from ._errors import StudyError, warn
 from ._frame import arrow, frame
 from ._record import Array, Record, Records, StudyRecord
 from ._run import Run, simulate
@@ -76,6 +76,7 @@ class Ida:
         times = (optional("free_swing", free_swing), optional("sa_period", sa_period), optional("sa_damping", sa_damping))
         self._source = (scene, found, text("measure", measure), sizes, *times, flag("trust", trust))
         self._become()
+        warn(self.warnings, stacklevel=3)
 
     def _become(self) -> None:
         scene, records, measure, levels, free_swing, sa_period, sa_damping, trust = self._source
@@ -96,6 +97,11 @@ class Ida:
     def measure(self) -> str:
         """Heading of the measure in the table."""
         return self._ida.measure
+
+    @property
+    def warnings(self) -> list[str]:
+        """What is to be known of the records, a sentence each, each once; the first ones are also a ``UserWarning`` when the analysis is made."""
+        return self._ida.warnings
 
     @property
     def levels(self) -> Array:
@@ -183,6 +189,19 @@ class Runs:
     slides: "Array"
 
 
+def _floats(table: pd.DataFrame, name: str) -> Array:
+    """A column of numbers; blanks are NaN."""
+    cells = table[name]
+    if pd.api.types.is_timedelta64_dtype(cells) or pd.api.types.is_datetime64_any_dtype(cells):
+        raise StudyError(f"column `{name}` has times; give numbers")
+    try:
+        return np.ascontiguousarray(cells.to_numpy(dtype=np.float64, na_value=np.nan))
+    except (TypeError, ValueError):
+        kind = pd.to_numeric(cells, errors="coerce")
+        place = int(np.flatnonzero(kind.isna() & cells.notna())[0]) if (kind.isna() & cells.notna()).any() else 0
+        raise StudyError(f"table.iloc[{place}], column `{name}`: {cells.iloc[place]!r} is no number; give numbers") from None
+
+
 class Study:
     """The runs of a study, and what follows from them.
 
@@ -207,6 +226,8 @@ class Study:
         # Levels of an index that have names are columns, as in tables of files.
         if any(name is not None and name not in table.columns for name in table.index.names):
             table = table.reset_index(level=[name for name in table.index.names if name is not None and name not in table.columns])
+        if not all(isinstance(name, str) for name in table.columns):
+            table = table.rename(columns=str)
         swapped = {name: kind.newbyteorder("=") for name, kind in table.dtypes.items() if isinstance(kind, np.dtype) and not kind.isnative}
         self.table = table = table.astype(swapped) if swapped else table
         if measure is None:
@@ -240,6 +261,7 @@ class Study:
         native = _rocking.Ida.from_toml(_rocking.scene_text(os.fspath(file)), os.fspath(file))
         study = cls(frame(native.table(0, len(native), whole("threads", threads))), native.measure)
         study.states, study._options = native.states, native.options
+        warn(native.warnings, stacklevel=3)
         return study
 
     @property
@@ -283,12 +305,12 @@ class Study:
             numbers = sorted(int(name[len(prefix) :]) for name in names if name.startswith(prefix) and name[len(prefix) :].isdigit())
             if numbers != list(range(1, len(numbers) + 1)):
                 raise StudyError(f"the columns {prefix}... have the numbers {numbers}; give all of them, from 1")
-            own = [f"{prefix}{number}" for number in numbers]
-            return np.ascontiguousarray(table[own].to_numpy(dtype=np.float64, na_value=np.nan)).reshape(len(table), len(own))
+            own = [_floats(table, f"{prefix}{number}") for number in numbers]
+            return np.stack(own, axis=1) if own else np.empty((len(table), 0))
 
         return Runs(
             records=records,
-            levels=table[self.measure].to_numpy(dtype=np.float64).tolist(),
+            levels=_floats(table, self.measure).tolist(),
             outcomes=texts("outcome"),
             trust=texts("trust") if "trust" in names else None,
             uplift=table["first_uplift"].notna().tolist() if "first_uplift" in names else None,

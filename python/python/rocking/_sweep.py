@@ -10,12 +10,16 @@ import pandas as pd
 
 from . import _rocking
 from ._arguments import whole
+from ._errors import warn
 from ._frame import arrow, frame
 from ._keys import copied
 from ._scene import POINT, Scene
 
 if TYPE_CHECKING:
     import pyarrow
+
+# Points whose scenes are read for warnings about their records.
+POINTS_READ = 1000
 
 
 class Sweep:
@@ -88,6 +92,11 @@ class Sweep:
     def ask(self) -> str:
         """What is asked of each run."""
         return self._sweep.ask
+
+    @property
+    def warnings(self) -> list[str]:
+        """What is to be known of the records of the points, or of a thousand that are evenly spread, a sentence each, each once."""
+        return self._sweep.warnings(POINTS_READ)
 
     def __len__(self) -> int:
         return len(self._sweep)
@@ -184,4 +193,5 @@ def sweep(
     if table not in ("pandas", "pyarrow"):
         raise ValueError(f"there is no table of {table!r}; give pandas or pyarrow")
     plan = Sweep(scene, axes, ask=ask, combine=combine, sampling=sampling)
+    warn(plan.warnings, stacklevel=3)
     return plan.table(threads=threads) if table == "pandas" else plan.to_arrow(threads=threads)

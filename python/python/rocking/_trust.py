@@ -36,6 +36,8 @@ class Trust:
     """Whether the same block overturns or collapses in all runs."""
     companions: tuple[dict[str, Any], ...] = field(repr=False)
     """Per companion ``change``, ``verdict``, ``block``, ``ends_at``, ``parts_at`` [s] and ``difference``."""
+    further: dict[str, int] | None
+    """More companions with changes up to 1e-6: how many ``runs``, and how many ``others`` have another verdict; None where the nine decide."""
     fold: dict[str, Any] | None
     """Relative changes of the shaking that were ``tried``, and the ``turns`` that change the verdict; None for a run that is not determined, or without ground motion."""
     sentence: str

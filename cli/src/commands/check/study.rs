@@ -1,6 +1,5 @@
 //! `rocking check` of a study: its records with their factors, its levels and limit states.
 
-use crate::commands::ida;
 use crate::error::Failure;
 use crate::number::significant;
 use crate::terminal::{json, print, warn_of_some};
@@ -45,7 +44,7 @@ pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
         records: ida.records().iter().enumerate().map(record).collect(),
         runs: ida.len(),
         states: states.iter().map(ToString::to_string).collect(),
-        warnings: ida::warnings(&ida).into_iter().chain(refused(&ida)).collect(),
+        warnings: ida.warnings().into_iter().chain(refused(&ida)).collect(),
     };
     warn_of_some(&findings.warnings);
     if as_json {

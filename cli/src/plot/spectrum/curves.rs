@@ -154,7 +154,11 @@ pub fn draw(points: &Points, family: &Family, measure: &Measure, paper: &Paper) 
     }
     let below = [LEFT + 0.5 * (sheet.width - LEFT - RIGHT), bottom + NUMBERS + 12.0];
     sheet.words(below, &family.x.label(), style::LABEL, Anchor::Middle);
-    let entries = legend(family, &panels[0]);
+    let mut entries = legend(family, &panels[0]);
+    match without_answer(points, measure) {
+        0 => {}
+        open => entries.push((Key::None, format!("{open} of {} runs without an answer, left out", points.len()))),
+    }
     sheet.height = match entries.is_empty() {
         true => below[1] + 12.0,
         false => sheet.legend(below[1] + 8.0, &entries) + 6.0,
@@ -222,10 +226,15 @@ fn legend(family: &Family, curves: &[Curve]) -> Vec<(Key, String)> {
     entries
 }
 
+/// Number of runs that failed, or whose verdict is not determined.
+fn without_answer(points: &Points, measure: &Measure) -> usize {
+    (0..points.len()).filter(|row| measure.values.largest(*row).is_none()).count()
+}
+
 fn caption(points: &Points, family: &Family, measure: &Measure) -> String {
-    let (rows, &Measure { values, subject, words, .. }) = (0..points.len(), measure);
-    let lost = rows.clone().filter(|row| values.largest(*row) == Some(f64::INFINITY)).count();
-    let open = rows.filter(|row| values.largest(*row).is_none()).count();
+    let &Measure { values, subject, words, .. } = measure;
+    let lost = (0..points.len()).filter(|row| values.largest(*row) == Some(f64::INFINITY)).count();
+    let open = without_answer(points, measure);
     let mut text = format!("{subject}: {words} over {}", family.x.label());
     if family.records > 1 {
         text.push_str(&format!(", {} records with their 16, 50 and 84 % fractiles", family.records));

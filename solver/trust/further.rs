@@ -1,0 +1,55 @@
+//! Further companions, where nine are too few: changes of 1e-6 make the angles part before the verdict is certain, and one in ten of them may make another
+//! verdict.
+
+use super::cancellation;
+use super::companions::{Change, LARGEST_CHANGE};
+use super::verdict::Verdict;
+use crate::response::Response;
+use crate::run::SolveError;
+use crate::scene::{Scene, Wanted};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// Further companions of each sign. With `2 n` of them a verdict that a share `s` of all changes reverses passes with a chance of `(1 - s)^(2 n)`: 8 % for a
+/// tenth.
+const OF_EACH_SIGN: usize = 12;
+
+/// Companions beside the nine, with changes of the excitation up to 1e-6: only their verdicts are computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Further {
+    /// How many there are.
+    pub runs: usize,
+    /// How many of them have another verdict than the run, or fail.
+    pub others: usize,
+}
+
+impl Further {
+    /// Runs the scene with the changes. `run` runs a scene.
+    ///
+    /// # Errors
+    /// [`SolveError::Cancelled`]
+    pub(super) fn follow(
+        scene: &Scene,
+        verdict: Verdict,
+        run: impl Fn(&Scene) -> Result<Response, SolveError> + Sync,
+    ) -> Result<Further, SolveError> {
+        let mut short = scene.clone();
+        short.options.wanted = Wanted::Overturns;
+        short.set_rows(None);
+        short.options.record_forces = false;
+        let sizes = (1..=OF_EACH_SIGN).map(|place| LARGEST_CHANGE * place as f64 / (OF_EACH_SIGN + 1) as f64);
+        let changes: Vec<f64> = sizes.flat_map(|size| [size, -size]).collect();
+        let has_verdict = |change: &f64| {
+            let Some(changed) = Change::Excitation(*change).scene(&short) else { return Ok(true) };
+            let run = run(&changed);
+            match cancellation(&run) {
+                Some(cancelled) => Err(cancelled),
+                None => Ok(run.is_ok_and(|run| Verdict::of(&run) == verdict)),
+            }
+        };
+        let same: Result<Vec<bool>, SolveError> = changes.par_iter().map(has_verdict).collect();
+        let same = same?;
+        Ok(Further { runs: same.len(), others: same.iter().filter(|same| !**same).count() })
+    }
+}
