@@ -32,7 +32,7 @@ fn a_chaotic_run_is_not_determined_in_text_summary_figure_and_report() {
     // A page made of the folder is the same.
     folder.succeeds("report with");
     assert_eq!(folder.read("with/report.html"), report);
-    assert!(folder.read("with/time-history.svg").contains("angles known up to here"));
+    assert!(folder.read("with/time-history.svg").contains("known up to here, if inputs were exact"));
 
     // Without companions: the same run, and nothing left of them.
     let before = ["response.csv", "events.json"].map(|name| folder.read(&format!("with/{name}")));

@@ -24,7 +24,11 @@ pub struct Sweep {
 /// The range `start .. stop`, or an error if it is not within the `length` points or runs of a study.
 pub fn range(start: usize, stop: usize, length: usize) -> PyResult<Range<usize>> {
     if start > stop || stop > length {
-        return Err(PyIndexError::new_err(format!("rows {start} to {stop} are not of the {length} rows of the study")));
+        let problem = match stop == start + 1 {
+            true => format!("there is no row {start}: rows are counted from 0, and there are {length}"),
+            false => format!("rows {start} to {stop} are not of the {length} rows of the study"),
+        };
+        return Err(PyIndexError::new_err(problem));
     }
     Ok(start..stop)
 }

@@ -46,6 +46,10 @@ impl Change {
 
     /// The changed scene; `None` if it would be out of range.
     pub(super) fn scene(self, scene: &Scene) -> Option<Scene> {
+        self.changed(scene).filter(|changed| changed.check().is_ok())
+    }
+
+    fn changed(self, scene: &Scene) -> Option<Scene> {
         let mut changed = scene.clone();
         match self {
             Change::Tolerance(factor) => {

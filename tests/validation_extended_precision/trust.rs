@@ -306,6 +306,17 @@ fn regression_an_overturning_that_one_change_in_ten_prevents_is_not_determined()
     assert!(trust.determined && trust.further.is_none(), "{trust:?}");
 }
 
+/// A column at the bound of sizes has no smaller companions: they failed, and its verdict was not determined.
+#[test]
+fn changes_beyond_the_bounds_make_no_companions() {
+    let mut scene = Scene::new(Column::equal_blocks(2, 1e-7, 1.0, 1.0, 9.81).expect("at the bound"));
+    scene.excitation.horizontal = Some(Motion::SinePulse { amplitude: 1.0, omega: 5.0, start: 0.0 });
+    scene.options.t_end = 10.0;
+    let (response, trust) = trust::follow(&scene).expect("a run");
+    assert_eq!(response.status, StopReason::Overturned);
+    assert!(trust.companions.len() == 5 && trust.companions.iter().all(|one| one.verdict.is_some()), "{trust:?}");
+}
+
 /// A block in a short pulse: all agree, and the fold is where plain runs put it.
 #[test]
 fn a_plain_run_is_determined_with_its_distance_from_the_fold() {

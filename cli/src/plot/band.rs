@@ -55,7 +55,7 @@ pub fn mark_horizon(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel) {
     let frame = &panel.frame;
     // If the exact inputs determine the angles to the end, the line marks how far the first six digits of the inputs do.
     let (t, words) = match trust.horizon < trust.ends_at {
-        true => (trust.horizon, "angles known up to here"),
+        true => (trust.horizon, "known up to here, if inputs were exact"),
         false => (trust.input_horizon, "known up to here by six digits"),
     };
     let x = panel.place_x(t);

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -25,7 +26,12 @@ def number(name: str, value: Any) -> float:
     is_scalar = getattr(value, "ndim", 0) == 0 and (hasattr(type(value), "__float__") or hasattr(type(value), "__index__"))
     if isinstance(value, (str, bytes, bool, np.bool_)) or not is_scalar:
         raise TypeError(f"{name} is of {type(value).__name__}; give a number")
-    return float(value)
+    try:
+        return float(value)
+    except OverflowError:
+        raise ValueError(f"{name} is out of the range of numbers; give a smaller one") from None
+    except TypeError:
+        raise TypeError(f"{name} is of {type(value).__name__}; give a number") from None
 
 
 def optional(name: str, value: Any) -> float | None:
@@ -38,7 +44,7 @@ def numbers(name: str, values: Any) -> npt.NDArray[np.float64]:
     if np.ma.is_masked(values):
         raise ValueError(f"{name} has masked values; fill them, or leave them out")
     try:
-        array = np.asarray(values)
+        array = np.asarray(list(values) if isinstance(values, Iterator) else values)
     except ValueError:
         raise TypeError(f"{name} is not regular; give a list or an array of numbers") from None
     if array.dtype.kind == "O":

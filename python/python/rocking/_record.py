@@ -93,6 +93,23 @@ class Record:
     ) -> "Record":
         """Reads a file of PEER, ESM, ITACA, K-NET, KiK-net, CSMIP, COSMOS, or a table; what the file does not say is given as for records of scene files.
 
+        Parameters
+        ----------
+        units : str
+            Unit of the samples where the file states none: ``g``, ``mg``, ``m/s2``, ``cm/s2``, ``mm/s2``, ``gal``, ``in/s2``, ``ft/s2``.
+        dt : float
+            Sampling interval [s] of a table without times.
+        lenient : bool
+            Whether a file with fewer samples than it declares is accepted.
+        channel : int
+            Number of the channel, from 1, of a file that has several.
+        column : str or int
+            Column of a table with the accelerations: its name, or its number from 1; found by itself unless given.
+        skip_rows : int
+            Lines at the head of a table that are not read.
+        gravity : float
+            One g of the samples [m/s²].
+
         Raises
         ------
         RecordError
@@ -374,6 +391,8 @@ def records(
         file name or header says so (``EW``, ``000``, ...); ``H1`` and ``H2`` are otherwise the horizontal ones by the order of the files' names.
     vertical : bool
         Whether the vertical component of each record shakes as well.
+    units, dt, lenient, channel, column, skip_rows
+        As of :meth:`Record.read`, for all files.
 
     Raises
     ------
@@ -410,7 +429,9 @@ def records(
     except SceneError as refused:
         # There is no file of a study, whose line could be named, and no argument `files`.
         problem, remedy = refused.problem, refused.remedy.replace("name the records with `files`", "read the others one by one with Record.read")
-        raise SceneError(f"{path}: {problem}; {remedy}", path, 0, refused.key, problem, remedy, refused.record) from None
+        argument = (refused.key or "").removeprefix("records.")
+        place = f"{path}, {argument}" if argument in keys and argument != "folder" else path
+        raise SceneError(f"{place}: {problem}; {remedy}", path, 0, refused.key, problem, remedy, refused.record) from None
     return Records(StudyRecord._of(record) for record in found)
 
 

@@ -222,7 +222,9 @@ class Study:
 
     def __init__(self, table: pd.DataFrame, measure: str | None = None) -> None:
         if not isinstance(table, pd.DataFrame):
-            raise TypeError(f"table is of {type(table).__name__}; give a DataFrame of runs")
+            lazy = "the DataFrame that its method compute() returns"
+            remedy = lazy if hasattr(table, "compute") else "a DataFrame of runs"
+            raise TypeError(f"table is of {type(table).__name__}; give {remedy}")
         # Levels of an index that have names are columns, as in tables of files.
         if any(name is not None and name not in table.columns for name in table.index.names):
             table = table.reset_index(level=[name for name in table.index.names if name is not None and name not in table.columns])

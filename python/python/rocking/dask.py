@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any, Union
 
 import pandas as pd
 
+from ._arguments import number, whole
 from ._study import Ida
 from ._sweep import Sweep
 
@@ -56,6 +57,11 @@ def partition_size(plan: Plan, *, seconds: float = SECONDS_PER_PARTITION, thread
 
     The estimate costs about half a second of runs; partitions of a study whose runs differ much take between a fraction and a multiple of it.
     """
+    if not isinstance(plan, (Sweep, Ida)):
+        raise TypeError(f"plan is of {type(plan).__name__}; give a Sweep or an Ida")
+    seconds = number("seconds", seconds)
+    if not seconds > 0.0:
+        raise ValueError(f"seconds = {seconds}; give a time above zero")
     length, threads = len(plan), threads or os.cpu_count() or 1
     pieces, rows, spent = 8, 4, 0.0
     most = max(1, length // pieces)
@@ -99,7 +105,7 @@ def frame(plan: Plan, *, rows: range | None = None, partition_size: int | None =
         raise TypeError(f"rows are of {type(asked).__name__}; give a range")
     if asked.step != 1 or not 0 <= asked.start < asked.stop <= len(plan):
         raise ValueError(f"rows = {asked} are no range of the {len(plan)} rows of the study")
-    size = globals()["partition_size"](plan, threads=threads) if partition_size is None else partition_size
+    size = globals()["partition_size"](plan, threads=threads) if partition_size is None else whole("partition_size", partition_size)
     if size < 1:
         raise ValueError(f"partition_size = {size}; give at least one row")
     bounds = [(start, min(start + size, asked.stop)) for start in range(asked.start, asked.stop, size)]
