@@ -24,8 +24,20 @@ pub fn remove(path: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
     }
 }
 
+/// Refuses `-` as the name of a folder: elsewhere it stands for a stream.
+pub fn check_folder(path: &Path) -> Result<(), Failure> {
+    match path == Path::new("-") {
+        true => Err(Failure::Output(
+            path.into(),
+            "results are written into a folder, not to standard output; `./-` is a folder of this name".into(),
+        )),
+        false => Ok(()),
+    }
+}
+
 /// Makes a folder that the user has named.
 pub fn folder(path: &Path) -> Result<(), Failure> {
+    check_folder(path)?;
     if path.is_file() {
         return Err(Failure::Output(path.into(), "a file has this name".into()));
     }

@@ -158,7 +158,7 @@ fn outputs_that_cannot_be_are_named_as_they_were_given() {
     let folder = Folder::with("scene.toml", SCENE);
     folder.write("taken.csv", "a,b\n");
     folder.refused("run scene.toml --out taken.csv", &["taken.csv: a file has this name", "another folder"]);
-    for command in ["sweep s.toml --out -", "merge - taken.csv", "init -"] {
+    for command in ["sweep s.toml --out -", "merge - taken.csv", "init -", "run scene.toml --out -"] {
         folder.write("s.toml", "scene = \"scene.toml\"\n[axes]\neta = [0.9]\n");
         folder.refused(command, &["-: ", "not to standard output"]);
     }

@@ -21,6 +21,11 @@ pub struct Log {
 }
 
 impl Log {
+    /// Nothing has happened yet.
+    pub fn new(rows: Rows, extremes: Extremes) -> Log {
+        Log { rows, events: Vec::new(), impacts: 0, without_restitution: 0, extremes }
+    }
+
     pub fn push_event(&mut self, event: Event) {
         if self.events.is_empty() {
             self.events.reserve(USUAL_EVENTS);

@@ -46,13 +46,10 @@ impl Recorder {
     pub fn new(problem: &Problem, start: &State, rows: usize) -> Recorder {
         let (blocks, records_forces) = (start.theta.len(), problem.records_forces());
         let mut recorder = Recorder {
-            log: Log {
-                rows: Rows::starting_in(start.segment, rows),
-                events: Vec::new(),
-                impacts: 0,
-                without_restitution: 0,
-                extremes: Extremes::new(blocks, problem.is_recorded(), records_forces),
-            },
+            log: Log::new(
+                Rows::starting_in(start.segment, rows),
+                Extremes::new(blocks, problem.is_recorded(), records_forces),
+            ),
             pattern: start.pattern.clone(),
             largest_gaps: if problem.records_gaps { PerBlock::filled(0.0, blocks) } else { PerBlock::new() },
             needs: records_forces.then(|| Needs::new(&problem.scene.column, start.t, &start.theta)),

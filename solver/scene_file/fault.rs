@@ -59,6 +59,13 @@ pub(super) fn refused(root: &Table, fault: &SceneError) -> Wrong {
     {
         key = format!("column.{name}");
     }
+    // One number stands for both coefficients.
+    if matches!(key.as_str(), "friction.static" | "friction.kinetic")
+        && root.has("friction")
+        && root.given("friction.static").is_none()
+    {
+        key = "friction".into();
+    }
     // A record is too strong by the size that it is scaled to, where that is given, or by its samples.
     if let Some(component) = key.strip_suffix(".file").map(str::to_string) {
         let given = ["scale", "file", "accel"].into_iter().find_map(|name| root.given(&format!("{component}.{name}")));

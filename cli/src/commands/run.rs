@@ -28,6 +28,7 @@ pub fn run(request: &Run) -> Result<(), Failure> {
     if request.dynamics == Dynamics::Generic {
         scene.options.dynamics = DynamicsSource::Generic;
     }
+    output::check_folder(out)?;
     let folder = Folder::create(out)?;
     let outdated = files_of_earlier_runs();
     check_outputs(request, &template, &outdated)?;

@@ -90,13 +90,7 @@ impl<'p> SlidingRecorder<'p> {
         SlidingRecorder {
             problem,
             friction,
-            log: Log {
-                rows: Rows::starting_in(0, 0),
-                events: Vec::new(),
-                impacts: 0,
-                without_restitution: 0,
-                extremes,
-            },
+            log: Log::new(Rows::starting_in(0, 0), extremes),
             read_until: f64::NAN,
             least_normal_force: (0..blocks)
                 .map(|i| LIGHT_SHARE * problem.scene.column.mass_above(i) * problem.scene.column.gravity())
