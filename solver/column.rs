@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// One rigid block, symmetric about its axis. SI; masses may be per unit thickness.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Block {
     /// Half of the width of its base `[m]`.
     pub bottom_half_width: f64,
@@ -170,6 +171,7 @@ pub(crate) struct Seat {
 
 /// A column as it is read from a file, before [`Column::new`] and [`Column::displaced`] check it.
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 struct Unchecked {
     blocks: Vec<Block>,
     gravity: f64,

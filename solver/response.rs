@@ -349,7 +349,8 @@ pub struct Response {
     /// Whether the ground rests from `t_end` on and the column that stands then is past its balance, or has the energy to get there: it may be falling.
     #[serde(default)]
     pub may_overturn: bool,
-    /// Whether the ground rests from `t_end` on and blocks slide or fly then: their slides at the end are not final. Only with friction.
+    /// Whether the ground rests from `t_end` on and blocks slide or fly then: their slides at the end are not final. Only with friction. Blocks that
+    /// rock then may slide at a later impact: nothing is said of that.
     #[serde(default)]
     pub slides_on: bool,
     /// The block whose angle reached, or is certain to reach, the overturning angle first, from 1.
@@ -371,7 +372,7 @@ pub struct Response {
     /// Largest magnitude of each block's angle `[rad]`; empty where nothing but the outcome is requested.
     pub peak_theta: Vec<f64>,
     /// Time spent in each mode `[s]`; a pattern and its mirror image are one mode. `rest` counts as a mode, in which a column that has come to
-    /// rest for good stays until `t_end`. Empty where nothing but the outcome is requested.
+    /// rest for good stays until `t_end`. Empty where nothing but the outcome of a run without friction is requested.
     pub time_in_mode: BTreeMap<String, f64>,
     /// Largest `|T| / N` per interface, a fall included, dimensionless; infinite if a tangential force acts without compression.
     /// Empty if the scene's options ask for no forces.
@@ -396,7 +397,8 @@ pub struct Response {
     /// What the run cost.
     #[serde(default)]
     pub work: Work,
-    /// Whether some mode ran on the generic equations because this build has no generated ones for it.
+    /// Whether some mode ran on other equations than those that the options ask for: on generic ones as this build has no generated ones for it, or not on the
+    /// supplied ones. Blocks that have slid are expected to need others than were supplied for the column.
     pub used_generic: bool,
     /// What slid and flew; `None` for a scene without friction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -486,13 +488,13 @@ impl Response {
     fn warning_of_generic_modes(&self) -> String {
         let (blocks, most) = (self.peak_theta.len(), crate::mechanics::generated::MAX_BLOCKS);
         if blocks == 0 {
-            return "some modes ran on the generic equations, which are slower: neither this build nor the program has generated ones for them"
+            return "some modes ran on other equations than were asked for: the supplied ones or this build lack them, and generic ones are slower"
                 .into();
         }
         if (1..=most).contains(&blocks) {
             // This build has all modes of such a column: other equations were supplied.
-            return "the supplied equations lack modes of this column, which ran on the generic ones: slower, and perhaps not what was meant \
-                    (generate equations for these blocks, to the last digit)"
+            return "the supplied equations lack modes of this column, which ran on those of this build: perhaps not what was meant (generate \
+                    equations for these blocks, to the last digit)"
                 .into();
         }
         format!(

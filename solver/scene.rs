@@ -77,8 +77,8 @@ pub enum DynamicsSource {
     Generated,
     /// Hand-written equations for any N.
     Generic,
-    /// Equations that a program has generated in its own build: for more blocks, or baked for one column. Generic ones where the supplied
-    /// ones have none. Supplied equations are serialised as a name, which cannot be read back.
+    /// Equations that a program has generated in its own build: for more blocks, or baked for one column. Where they lack a mode, as baked ones do once
+    /// blocks have slid, it runs on generated equations of this library, and on generic ones where there are none. Supplied equations are serialised as a name, which cannot be read back.
     #[serde(untagged)]
     Supplied(Equations),
 }
@@ -103,7 +103,8 @@ pub enum Wanted {
     /// History, events, peaks, forces.
     #[default]
     Everything,
-    /// Whether and how the column overturns. There are no rows, events, times in modes, peaks or forces. The run ends as soon as it is certain
+    /// Whether and how the column overturns. There are no rows, events, times in modes (with friction these are there), peaks or forces. Without friction
+    /// the run ends as soon as it is certain
     /// that the column does not overturn ([`crate::StopReason::Stands`]; the proof is in [`crate::outcome`]).
     Outcome,
     /// Whether the column overturns, and nothing else. As [`Wanted::Outcome`]; in addition, the run of one block on a ground without vertical motion

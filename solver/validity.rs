@@ -30,9 +30,10 @@ pub struct Validity {
 pub struct ContactNeeds {
     /// Largest `|T| / N`, dimensionless; infinite if a tangential force acts without compression.
     pub friction_demand: Extreme,
-    /// Largest `|P_T| / P_N` of the impulses at impacts, dimensionless; infinite where a contact transmits no compression.
+    /// Largest `|P_T| / P_N` of the impulses at impacts, dimensionless; infinite where a contact transmits no compression, or would have to pull. `None` in
+    /// files of earlier versions.
     #[serde(default)]
-    pub impulse_friction_demand: Extreme,
+    pub impulse_friction_demand: Option<Extreme>,
     /// Smallest normal force `[N]`.
     pub min_normal_force: Extreme,
     /// Time in which the normal force is below zero.
@@ -86,7 +87,8 @@ impl Validity {
 
     /// Largest friction demand of all contacts at impacts, dimensionless.
     pub fn largest_impulse_demand(&self) -> f64 {
-        self.contacts.iter().fold(0.0, |largest, contact| contact.impulse_friction_demand.value.max(largest))
+        let demands = self.contacts.iter().filter_map(|contact| contact.impulse_friction_demand);
+        demands.fold(0.0, |largest, demand| demand.value.max(largest))
     }
 
     /// Largest friction demand of all contacts between impacts, dimensionless.

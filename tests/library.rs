@@ -179,3 +179,25 @@ fn slips_of_a_scene_that_is_not_valid_are_none() {
     assert!(scene.check().is_err());
     assert_eq!(scene.slips_at_rest(), [None, None]);
 }
+
+/// What is not asked for is not there, whether friction is used up (0.2) or holds (0.9): a run that sticks throughout had events, peaks and forces.
+#[test]
+fn responses_hold_what_was_asked_for() {
+    for friction in [None, Some(0.9), Some(0.2)] {
+        let mut scene = pulse(Column::equal_blocks(2, 0.4, 1.6, 1.0, GRAVITY).expect("valid"), 4.0, 8.0);
+        scene.friction = friction.map(Friction::uniform);
+        let whole = simulate(&scene).expect("solved");
+        assert!(whole.peak_theta.len() == 2 && whole.friction_demand.len() == 2 && !whole.events.is_empty());
+        scene.options.record_forces = false;
+        let without_forces = simulate(&scene).expect("solved");
+        assert_eq!((&without_forces.events, &without_forces.peak_theta), (&whole.events, &whole.peak_theta));
+        scene.options.wanted = Wanted::Outcome;
+        let outcome = simulate(&scene).expect("solved");
+        assert_eq!(Fate::of(&outcome), Fate::of(&whole), "{friction:?}");
+        assert!(outcome.events.is_empty() && outcome.peak_theta.is_empty() && outcome.samples.is_empty());
+        for response in [without_forces, outcome] {
+            let lists = [&response.friction_demand, &response.impulse_friction_demand, &response.min_normal_force];
+            assert!(lists.iter().all(|list| list.is_empty()) && response.validity.is_none(), "{friction:?}");
+        }
+    }
+}

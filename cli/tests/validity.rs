@@ -118,4 +118,13 @@ fn the_report_says_what_impacts_ask_for() {
     assert!(impacts > forces && forces > 0.0, "{forces} {impacts}");
     assert!(report.contains(&format!("impacts ask for up to {:.3}", impacts)), "{impacts}");
     assert!(report.contains("the same of impulses at impacts"));
+    // A folder of an earlier version has the largest of the whole run alone.
+    let mut earlier = summary.clone();
+    for contact in earlier["validity"]["contacts"].as_array_mut().expect("a list") {
+        contact.as_object_mut().expect("a table").remove("impulse_friction_demand");
+    }
+    folder.write("o/summary.json", earlier.to_string());
+    folder.succeeds("report o");
+    let of_run = summary["impulse_friction_demand"][0].as_f64().expect("a number");
+    assert!(folder.read("o/report.html").contains(&format!("<td>{of_run:.3}</td>")), "{of_run}");
 }

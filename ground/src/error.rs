@@ -134,7 +134,9 @@ pub enum RecordError {
     #[error("all samples are zero: such a record cannot be scaled to a peak acceleration")]
     Silent,
     /// A record cannot be scaled to a target: the value of the measure, the target or the factor is not above zero, or the factor not finite.
-    #[error("the record's {measure} is {value}: it cannot be scaled to {target}; choose another record or measure")]
+    #[error(
+        "the record's {measure} is {value}: it cannot be scaled to {target}; choose another record or measure, and a size above zero"
+    )]
     Unscalable { measure: String, value: f64, target: f64 },
 }
 

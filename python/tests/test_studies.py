@@ -598,7 +598,9 @@ def test_cells_that_are_no_numbers_are_named() -> None:
     for column, cells, told in [
         ("pgv", ["0.1", "much"], r"iloc\[1\], column `pgv`: 'much' is no number"),
         ("peak_1", [0.1, "high"], r"iloc\[1\], column `peak_1`: 'high' is no number"),
-        ("pgv", pd.to_timedelta([1, 2], unit="s"), "column `pgv` has times"),
+        ("pgv", pd.to_timedelta([1, 2], unit="s"), "column `pgv` has values of timedelta64"),
+        ("peak_1", [0.1, 1j], r"iloc\[0\], column `peak_1`: \(0.1\+0j\) is no number|has values of complex"),
+        ("peak_1", pd.Series([0.1, 10**400], dtype=object), r"iloc\[1\], column `peak_1`: 1000"),
         ("peak_1", [0.1, -0.2], "column `peak_1`: -0.2 is below zero"),
     ]:
         with pytest.raises(rk.StudyError, match=told):

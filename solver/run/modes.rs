@@ -45,7 +45,8 @@ struct Entered {
     name: String,
     /// `None` after the phase was dropped; it is built again when the pattern is entered.
     phase: Option<Phase>,
-    is_generic: bool,
+    /// Whether it runs on other equations than those that the options ask for.
+    is_other: bool,
     /// Whether the present run has entered it.
     is_entered: bool,
 }
@@ -122,23 +123,25 @@ impl Modes {
     }
 
     fn built(&self, pattern: &Pattern, problem: &Problem) -> Entered {
-        let (ground, scene) = (self.ground(), problem.scene);
-        let source = scene.options.dynamics;
-        let generated = match source {
-            DynamicsSource::Generated => (generated::EQUATIONS.mode)(&scene.column, pattern, ground),
-            // Equations of another pattern would move the column in a way that its contacts do not allow.
+        let (ground, column) = (self.ground(), &problem.scene.column);
+        let generated = || (generated::EQUATIONS.mode)(column, pattern, ground);
+        let (first, second) = match problem.scene.options.dynamics {
+            DynamicsSource::Generated => (generated(), None),
             DynamicsSource::Supplied(equations) => {
-                (equations.mode)(&scene.column, pattern, ground).filter(|mode| mode.pattern() == pattern)
+                // Equations of another pattern would move the column in a way that its contacts do not allow.
+                let supplied = (equations.mode)(column, pattern, ground).filter(|mode| mode.pattern() == pattern);
+                if supplied.is_some() { (supplied, None) } else { (None, generated()) }
             }
-            DynamicsSource::Generic => None,
+            DynamicsSource::Generic => (Mode::generic(column, pattern), None),
         };
-        let is_generic = generated.is_none() && source != DynamicsSource::Generic;
-        let mode = generated.or_else(|| Mode::generic(&scene.column, pattern)).expect("the column is not at rest");
+        // Blocks that have slid are not those for which a column's equations were supplied: others are to be expected.
+        let is_expected = first.is_some() || second.is_some() && column.slides().iter().any(|slide| *slide != 0.0);
+        let mode = first.or(second).or_else(|| Mode::generic(column, pattern)).expect("the column is not at rest");
         Entered {
             pattern: pattern.clone(),
             name: ModeName::of(pattern).to_string(),
             phase: Some(Phase::new(&mode, problem)),
-            is_generic,
+            is_other: !is_expected,
             is_entered: false,
         }
     }
@@ -149,9 +152,9 @@ impl Modes {
         entered.map(|(index, entered)| (index + 1, entered.name.as_str()))
     }
 
-    /// Whether the present run has entered a mode without generated equations, although the options asked for them.
+    /// Whether the present run has entered a mode on other equations than those that the options ask for.
     pub fn used_generic(&self) -> bool {
-        self.entered.iter().any(|entered| entered.is_entered && entered.is_generic)
+        self.entered.iter().any(|entered| entered.is_entered && entered.is_other)
     }
 
     /// The work of the present run.

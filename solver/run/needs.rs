@@ -220,7 +220,7 @@ impl Needs {
         let extreme = |found: &ExtremeSoFar| Extreme { value: found.value, t: found.t, theta: found.theta };
         let contact = |account: &Account| ContactNeeds {
             friction_demand: extreme(&account.demand),
-            impulse_friction_demand: extreme(&account.impulse_demand),
+            impulse_friction_demand: Some(extreme(&account.impulse_demand)),
             min_normal_force: extreme(&account.normal),
             tension: Span { time: account.tension, share: share(account.tension) },
             above: COEFFICIENTS

@@ -11,7 +11,7 @@ use super::sliding;
 use super::transition;
 use crate::friction::Friction;
 use crate::response::Response;
-use crate::scene::Scene;
+use crate::scene::{Scene, SolveOptions, Wanted};
 use rocking_ground::TimelineCache;
 use std::fmt;
 use std::ops::ControlFlow;
@@ -167,6 +167,23 @@ impl Simulator {
         }
         let ground = self.ground.timeline(&scene.excitation, scene.options.t_end, Default::default());
         let problem = Problem::new(scene, &ground, None, self.skips);
-        sliding::run(&problem, &friction.per_interface(scene.column.len()), sticking, &mut self.modes, progress)
+        let coefficients = friction.per_interface(scene.column.len());
+        let response = sliding::run(&problem, &coefficients, sticking, &mut self.modes, progress)?;
+        Ok(asked_for(&scene.options, response))
     }
+}
+
+/// What the options ask for of a response with friction: parts in which everything sticks record all, for the cones of friction.
+fn asked_for(options: &SolveOptions, mut response: Response) -> Response {
+    let is_recorded = options.wanted == Wanted::Everything;
+    if !is_recorded {
+        response.events.clear();
+        response.peak_theta.clear();
+    }
+    if !is_recorded || !options.record_forces {
+        let Response { friction_demand, impulse_friction_demand, min_normal_force, .. } = &mut response;
+        [friction_demand, impulse_friction_demand, min_normal_force].into_iter().for_each(Vec::clear);
+        response.validity = None;
+    }
+    response
 }

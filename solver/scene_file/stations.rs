@@ -143,12 +143,12 @@ impl Reader<'_> {
         let listed = |is_taken: fn(&&Component) -> bool| {
             let names: Vec<&str> =
                 components.iter().filter(is_taken).map(|component| component.name.as_str()).collect();
-            if names.is_empty() { "no others".into() } else { names.join(", ") }
+            if names.is_empty() { String::new() } else { format!(", only {}", names.join(", ")) }
         };
         let named = Component::named(&components, &requested);
         let Some(horizontal) = named.into_iter().find(|component| component.direction == Direction::Horizontal) else {
             let problem = format!(
-                "it has no horizontal component `{requested}`, only {}; choose H1, H2 or the end of a file's name, or leave the record out",
+                "it has no horizontal component `{requested}`{}; choose H1, H2 or the end of a file's name, or leave the record out",
                 listed(|component| component.direction == Direction::Horizontal)
             );
             return Err(refuse("component", problem));
@@ -158,10 +158,8 @@ impl Reader<'_> {
             (false, _) => None,
             (true, Some(up)) => Some(up.record.clone()),
             (true, None) => {
-                let problem = format!(
-                    "it has no vertical component, only {}; add its file, or leave `vertical` out",
-                    listed(|_| true)
-                );
+                let problem =
+                    format!("it has no vertical component{}; add its file, or leave `vertical` out", listed(|_| true));
                 return Err(refuse("vertical", problem));
             }
         };

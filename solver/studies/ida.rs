@@ -328,6 +328,9 @@ impl Ida {
     }
 
     /// As [`Ida::runs`], but returns `made(run)` for each run. The call is on the thread that made the run.
+    ///
+    /// # Panics
+    /// If the range ends beyond [`Ida::len`].
     pub fn lines<T: Send>(&self, range: Range<usize>, made: impl Fn(IdaRun) -> T + Sync) -> Vec<T> {
         let indices = range.into_par_iter().with_min_len(LEAST_RUNS);
         indices.map_init(|| self.worker(), |run, index| made(run(index))).collect()
@@ -366,7 +369,7 @@ impl Ida {
                 let trust = follow_run(&scene, &response, TrustOptions::VERDICT)?;
                 // A run that ended because no motion follows from the laws of contact stays undetermined, whatever its companions do.
                 if !trust.determined && found.fate != Fate::Undetermined {
-                    found = open(&scene, response, trust.horizon);
+                    found = open(&scene, response, trust.known_until());
                 }
             }
             Ok(found)
@@ -374,7 +377,10 @@ impl Ida {
         IdaRun { index, record, level, scale, result: self.scene_of(index).and_then(run) }
     }
 
-    /// Observation of a run, for stripes and fragility.
+    /// Observation of one of its runs, for stripes and fragility.
+    ///
+    /// # Panics
+    /// If the run is of another study, whose record it does not have.
     pub fn observation(&self, run: &IdaRun) -> Observation {
         let found = run.result.as_ref().ok();
         Observation {
@@ -392,7 +398,7 @@ fn outcome(scene: &Scene, response: &Response) -> IdaOutcome {
     let column = &scene.column;
     let slides = response.sliding.as_ref().map(|report| report.residual_slide.clone());
     IdaOutcome {
-        fate: if response.may_overturn { Fate::NotDetermined } else { Fate::of(response) },
+        fate: if response.may_overturn || response.slides_on { Fate::NotDetermined } else { Fate::of(response) },
         impacts: response.impacts,
         block: response.lost_block(),
         overturned_at: response.overturned_at(),

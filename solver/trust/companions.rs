@@ -4,7 +4,7 @@ use super::history::{AGREEMENT, Comparison};
 use super::verdict::Verdict;
 use crate::column::{Block, Column};
 use crate::response::Response;
-use crate::scene::{DynamicsSource, Scene, TIGHTEST_RTOL};
+use crate::scene::{Scene, TIGHTEST_RTOL};
 use rocking_ground::Motion;
 use serde::{Deserialize, Serialize};
 
@@ -69,10 +69,6 @@ impl Change {
             }
             Change::Sizes(change) => {
                 changed.column = widened(&scene.column, change)?;
-                // Equations that were made for one column do not hold for another.
-                if matches!(changed.options.dynamics, DynamicsSource::Supplied(_)) {
-                    changed.options.dynamics = DynamicsSource::default();
-                }
             }
         }
         Some(changed)

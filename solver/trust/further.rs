@@ -41,14 +41,15 @@ impl Further {
         let sizes = (1..=OF_EACH_SIGN).map(|place| LARGEST_CHANGE * place as f64 / (OF_EACH_SIGN + 1) as f64);
         let changes: Vec<f64> = sizes.flat_map(|size| [size, -size]).collect();
         let has_verdict = |change: &f64| {
-            let Some(changed) = Change::Excitation(*change).scene(&short) else { return Ok(true) };
+            let changed = Change::Excitation(*change).scene(&short)?;
             let run = run(&changed);
-            match cancellation(&run) {
+            Some(match cancellation(&run) {
                 Some(cancelled) => Err(cancelled),
                 None => Ok(run.is_ok_and(|run| Verdict::of(&run) == verdict)),
-            }
+            })
         };
-        let same: Result<Vec<bool>, SolveError> = changes.par_iter().map(has_verdict).collect();
+        // Changes that would put the scene out of range are left out.
+        let same: Result<Vec<bool>, SolveError> = changes.par_iter().filter_map(has_verdict).collect();
         let same = same?;
         Ok(Further { runs: same.len(), others: same.iter().filter(|same| !**same).count() })
     }

@@ -281,6 +281,12 @@ impl Trust {
         !self.determined && self.verdict != Verdict::Undetermined
     }
 
+    /// Time up to which the run is known, if its verdict is not determined `[s]`: the horizon, or that of the inputs where further companions reverse the
+    /// verdict.
+    pub fn known_until(&self) -> f64 {
+        if self.further.is_some() { self.input_horizon } else { self.horizon }
+    }
+
     /// Whether all companions agree to the end of the run.
     pub fn reaches_the_end(&self) -> bool {
         self.companions.iter().all(|companion| companion.parts_at.is_none())
@@ -321,10 +327,10 @@ impl Trust {
         }
         if let Some(Further { others, .. }) = self.further {
             return format!(
-                "changes of 1e-6 leave angles known up to t = {:.4} s only{}; small changes grow {grown} times; of {count} companions {others} have \
-                 another verdict",
+                "changes of 1e-6 leave angles known up to t = {:.4} s only{}; small changes grow {grown} times; of {count} companions {} another verdict",
                 self.input_horizon,
-                self.spacing(self.input_horizon)
+                self.spacing(self.input_horizon),
+                if others == 1 { "1 has".into() } else { format!("{others} have") }
             );
         }
         let verdicts = self.verdicts();

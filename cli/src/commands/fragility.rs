@@ -177,7 +177,7 @@ impl Pooling<'_> {
         });
         let cut = (self.cut > 0).then(|| {
             format!(
-                "{} run(s) end before their ground motion, or with the energy to overturn (`{TRUNCATED}`), and count as standing; a later `solver.t_end` settles them",
+                "{} run(s) end before their ground motion, with the energy to overturn, or sliding (`{TRUNCATED}`), and count as standing; a later `solver.t_end` settles them",
                 self.cut
             )
         });

@@ -252,7 +252,7 @@ fn tally(ida: &Ida, stripes: &[Stripe]) -> String {
     if fates.clone().any(is_open) {
         text.push_str(
             "not determined: companions end otherwise, or part from the run before its verdict is certain (the book, trust; with trust = false such runs \
-             count as they end), or the column may be falling where the run ends (a longer free_swing settles that)\n",
+             count as they end), or the column may be falling, or slides on, where the run ends (a longer free_swing settles that)\n",
         );
     }
     text

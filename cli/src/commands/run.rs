@@ -8,6 +8,7 @@ use crate::number::{counted, fixed};
 use crate::output;
 use crate::plot::{NAMES, Paper};
 use crate::progress::Progress;
+use crate::report::still_moves;
 use crate::terminal::{json_text, print, warn};
 use crate::text::{printable, shown};
 use rocking::Fate;
@@ -148,10 +149,10 @@ fn end_of_run(scene: &Scene, response: &Response) -> String {
             response.collapsed_block.map_or("a block".into(), |block| named(scene, block))
         ),
         StopReason::Undetermined => format!("{fate} from t = {t:.4} s on: no motion follows from the laws of contact"),
-        _ => {
-            let moves = if response.slides_on { "sliding" } else { "rocking" };
-            format!("{fate} and stands at t = {t:.4} s, still {moves}")
-        }
+        _ => match still_moves(response) {
+            Some(moves) => format!("{fate} and stands at t = {t:.4} s, still {moves}"),
+            None => format!("{fate} and stands at t = {t:.4} s"),
+        },
     }
 }
 

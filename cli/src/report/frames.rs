@@ -178,6 +178,9 @@ impl Ground {
 /// more than the error that jumps of the acceleration cause between two rows, it ends at rest.
 fn integrated(times: &[f64], accelerations: &[f64]) -> Vec<f64> {
     let last = times.len() - 1;
+    if accelerations.iter().all(|a| *a == 0.0) {
+        return vec![0.0; times.len()];
+    }
     let moves_until = accelerations.iter().rposition(|a| *a != 0.0).map_or(0, |place| (place + 1).min(last));
     let pairs = || times.windows(2).zip(accelerations.windows(2));
     let [left, error] = pairs().fold([0.0, 0.0f64], |[velocity, error], (t, a)| {

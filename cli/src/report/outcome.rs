@@ -9,7 +9,7 @@ use crate::text::escape;
 use rocking::column::Shape;
 use rocking::pattern::{ModeLabel, Pattern};
 use rocking::run_folder::Results;
-use rocking::{Event, EventKind, SlidingReport, StopReason};
+use rocking::{Event, EventKind, Response, SlidingReport, StopReason};
 use std::fmt::Write as _;
 
 /// HTML of the outcome: the sentence with a sign, what is known of its trust, and where the blocks stayed.
@@ -83,18 +83,28 @@ fn end_of_run(results: &Results) -> (&'static str, String) {
                  contact with friction there."
             ),
         ),
-        StopReason::EndOfTime
-            if !response.slides_on && results.response.samples.last().is_some_and(|row| row.pattern.dof() == 0) =>
-        {
-            ("stands", format!("The column <strong>stands</strong> at the end of the run, t&nbsp;=&nbsp;{end}&nbsp;s."))
-        }
-        _ => {
-            let moves = if response.slides_on { "sliding" } else { "rocking" };
-            let words = format!(
-                "The column <strong>stands</strong>, but is still {moves} at the end of the run, t&nbsp;=&nbsp;{end}&nbsp;s."
-            );
-            ("rocking", words)
-        }
+        _ => match still_moves(response) {
+            Some(moves) => {
+                let words = format!(
+                    "The column <strong>stands</strong>, but is still {moves} at the end of the run, t&nbsp;=&nbsp;{end}&nbsp;s."
+                );
+                ("rocking", words)
+            }
+            None => {
+                let words =
+                    format!("The column <strong>stands</strong> at the end of the run, t&nbsp;=&nbsp;{end}&nbsp;s.");
+                ("stands", words)
+            }
+        },
+    }
+}
+
+/// What the column of a run that stands at `t_end` does then; `None` where nothing moves any more.
+pub fn still_moves(response: &Response) -> Option<&'static str> {
+    let is_closed = || response.samples.last().is_some_and(|row| row.pattern.dof() == 0);
+    match response.slides_on {
+        true => Some("sliding or flying"),
+        false => (!is_closed()).then_some("rocking"),
     }
 }
 
@@ -115,7 +125,7 @@ fn places(results: &Results) -> String {
     let mut parts = Vec::new();
     if !way.is_empty() {
         let turned = |&interface: &usize| {
-            let start = results.response.samples.first().and_then(|row| row.slide.get(interface)).unwrap_or(&0.0);
+            let start = results.column.slides()[interface];
             report.way_slid[interface] > (report.residual_slide[interface] - start).abs() + SMALLEST_SLIDE
         };
         let (how, all) = if moved.iter().any(turned) { (" to and fro", " in all") } else { ("", "") };
@@ -150,10 +160,11 @@ fn stayed(results: &Results, report: &SlidingReport, moved: &[usize]) -> String 
     };
     let all = 0..results.column.len();
     let bodies = if all.clone().all(|block| results.shape(block) == Shape::Drum) { "drums" } else { "blocks" };
-    let verb = match (response.status, response.slides_on) {
-        (StopReason::Undetermined, _) => "stood at the end of the run",
-        (_, true) => "are at the end of the run, still sliding or flying",
-        (_, false) => "stayed",
+    let verb = match response.status {
+        StopReason::Undetermined => "stood at the end of the run",
+        _ if response.slides_on => "are at the end of the run, still sliding or flying",
+        _ if response.cuts_ground_motion() => "are at the end of the run",
+        _ => "stayed",
     };
     let which = if moved.len() < all.len() { " that slid or flew" } else { "" };
     let places: String = moved.iter().map(place).collect();

@@ -172,17 +172,16 @@ fn judge(results: &Results) -> Verdict {
 /// What the impulses at impacts need, where it is more than the forces do; empty otherwise.
 fn impacts_need(response: &Response, forces_need: f64) -> String {
     let contacts = response.validity.as_ref().map_or(&[][..], |validity| &validity.contacts);
-    let demands = contacts.iter().map(|contact| contact.impulse_friction_demand.value).enumerate();
-    match demands.max_by(|a, b| a.1.total_cmp(&b.1)) {
-        Some((worst, demand)) if demand.is_infinite() => {
-            format!(
-                "; at an impact no coefficient is enough at {}, where blocks would slip for an instant",
-                named(&[worst])
-            )
-        }
-        Some((worst, demand)) if demand > forces_need => format!(
+    let needs = contacts.iter().map(|contact| contact.impulse_friction_demand.map_or(0.0, |demand| demand.value));
+    let pulled: Vec<usize> =
+        needs.clone().enumerate().filter(|(_, need)| need.is_infinite()).map(|(at, _)| at).collect();
+    if !pulled.is_empty() {
+        return format!("; at an impact {} would have to pull: blocks may part there for an instant", named(&pulled));
+    }
+    match needs.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)) {
+        Some((worst, need)) if need > forces_need => format!(
             "; impacts ask for up to {} at {}, below which blocks slip for an instant",
-            significant(demand, 3),
+            significant(need, 3),
             named(&[worst])
         ),
         _ => String::new(),
@@ -292,9 +291,11 @@ fn needs_table(results: &Results) -> String {
         } else {
             ["–"; 2].map(String::from)
         };
-        let at_impacts = match (own, response.impulse_friction_demand.get(interface)) {
+        let own_at_impacts = own.and_then(|own| own.impulse_friction_demand.as_ref());
+        let at_impacts = match (own_at_impacts, response.impulse_friction_demand.get(interface)) {
             _ if demand == "–" => "–".into(),
-            (Some(own), _) => at(in_words(own.impulse_friction_demand.value), Some(&own.impulse_friction_demand)),
+            (Some(own), _) if own.value == 0.0 => "0".into(),
+            (Some(own), _) => at(in_words(own.value), Some(own)),
             (None, Some(demand)) => in_words(*demand),
             (None, None) => "–".into(),
         };

@@ -3,7 +3,7 @@
 use baked_column::{DENSITY, GRAVITY, column, run, scene, six_blocks};
 use rocking::dynamics::Ground;
 use rocking::pattern::{Interface, Pattern};
-use rocking::{Column, DynamicsSource, GroundMotion, Mode, Motion, Scene};
+use rocking::{Column, DynamicsSource, Friction, GroundMotion, Mode, Motion, Scene};
 
 /// All patterns of three blocks, mirror images included, with and without vertical motion: what the baked code gives
 /// differs from hand-written code by rounding.
@@ -61,6 +61,18 @@ fn another_column_falls_back_and_says_so() {
     scene.column = Column::equal_blocks(3, 0.4, 1.6, DENSITY, GRAVITY).expect("positive sizes");
     let response = run(&scene, DynamicsSource::Supplied(column::EQUATIONS)).expect("solved");
     assert!(response.used_generic);
+}
+
+/// Blocks that have slid are another column, on the library's own equations: that is no mistake of the program.
+#[test]
+fn blocks_that_slide_go_on_without_a_warning() {
+    let mut scene = scene().expect("positive sizes");
+    scene.friction = Some(Friction::uniform(0.3));
+    let baked = run(&scene, DynamicsSource::Supplied(column::EQUATIONS)).expect("solved");
+    let generated = run(&scene, DynamicsSource::Generated).expect("solved");
+    let slid = baked.sliding.as_ref().expect("with friction");
+    assert!(slid.way_slid.iter().any(|way| *way > 0.01), "{slid:?}");
+    assert!(!baked.used_generic && baked.warnings() == generated.warnings());
 }
 
 #[test]

@@ -192,14 +192,18 @@ class Runs:
 def _floats(table: pd.DataFrame, name: str) -> Array:
     """A column of numbers; blanks are NaN."""
     cells = table[name]
-    if pd.api.types.is_timedelta64_dtype(cells) or pd.api.types.is_datetime64_any_dtype(cells):
-        raise StudyError(f"column `{name}` has times; give numbers")
-    try:
+    is_number = pd.api.types.is_numeric_dtype(cells) and not pd.api.types.is_complex_dtype(cells)
+    if not is_number and not pd.api.types.is_object_dtype(cells) and not pd.api.types.is_string_dtype(cells):
+        raise StudyError(f"column `{name}` has values of {cells.dtype}; give numbers")
+    if is_number:
         return np.ascontiguousarray(cells.to_numpy(dtype=np.float64, na_value=np.nan))
-    except (TypeError, ValueError):
-        kind = pd.to_numeric(cells, errors="coerce")
-        place = int(np.flatnonzero(kind.isna() & cells.notna())[0]) if (kind.isna() & cells.notna()).any() else 0
-        raise StudyError(f"table.iloc[{place}], column `{name}`: {cells.iloc[place]!r} is no number; give numbers") from None
+    made = np.empty(len(cells))
+    for place, cell in enumerate(cells):
+        try:
+            made[place] = np.nan if cell is None or cell is pd.NA else float(cell)
+        except (TypeError, ValueError, OverflowError):
+            raise StudyError(f"table.iloc[{place}], column `{name}`: {cell!r} is no number; give numbers") from None
+    return made
 
 
 class Study:
@@ -297,7 +301,7 @@ class Study:
         if "truncated" in names:
             cut = int((table["truncated"].astype("string").str.lower() == "true").fillna(False).sum())
             if cut:
-                told = f"{cut} run(s) end before their ground motion, or with the energy to overturn (`truncated`), and count as standing; a later t_end settles them"
+                told = f"{cut} run(s) end before their ground motion, with the energy to overturn, or sliding (`truncated`), and count as standing; a later t_end settles them"
                 warnings.warn(told, stacklevel=stacklevel)
 
         def texts(name: str) -> list[str | None]:

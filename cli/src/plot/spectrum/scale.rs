@@ -111,7 +111,7 @@ fn steady(values: &[f64], step: impl Fn(f64, f64) -> f64) -> bool {
 
 /// Last part of a key of scenes (or the whole key, where the last part has another meaning elsewhere), and the name and unit of its quantity. A density has the
 /// unit of its column, which the key does not tell.
-const QUANTITIES: [(&str, &str, &str); 71] = [
+const QUANTITIES: [(&str, &str, &str); 69] = [
     ("alpha_degrees", "α", "°"),
     ("alpha", "α", "rad"),
     ("p", "p", "rad/s"),
@@ -154,8 +154,6 @@ const QUANTITIES: [(&str, &str, &str); 71] = [
     ("t_end", "End of the run", "s"),
     ("stick_angle", "Stick angle", "rad"),
     ("overturn_angle", "Overturning angle", "rad"),
-    ("θ", "", "rad"),
-    ("ω", "", "rad/s"),
     ("width", "Width", "m"),
     ("height", "Height", "m"),
     ("diameter", "Diameter", "m"),
@@ -186,26 +184,33 @@ const QUANTITIES: [(&str, &str, &str); 71] = [
 ];
 
 /// Name of the quantity of a key in the words of the field, and its unit, which may be empty; the last part of an unknown key. The name says which block,
-/// interface or motion it is of.
+/// interface, term of a sum or component it is of.
 fn quantity(key: &str) -> (String, &'static str) {
     let (above, last) = key.rsplit_once('.').unwrap_or(("", key));
-    let (last, index) = match last.strip_suffix(']').and_then(|last| last.split_once('[')) {
-        Some((last, index)) => (last, Some(index)),
-        None => (last, None),
+    let indexed = |part: &str| {
+        let (name, index) = part.strip_suffix(']')?.split_once('[')?;
+        Some((name.to_string(), index.to_string()))
     };
-    let whole = if above.is_empty() { last.to_string() } else { format!("{above}.{last}") };
-    let named = |name: &str| QUANTITIES.iter().find(|(own, _, _)| *own == name).map(|(_, name, unit)| (*name, *unit));
-    let (name, unit) = named(&whole).or_else(|| named(last)).unwrap_or((last, ""));
-    let block = above.strip_prefix("block[").and_then(|above| above.strip_suffix(']'));
-    let is_of_block = above == "initial" && last != "slide";
-    let name = match (block, index) {
-        (Some(block), _) => format!("{name} of block {block}"),
-        (None, Some(block)) if is_of_block => format!("{name} of block {block}"),
-        (None, Some(interface)) => format!("{name} of interface {interface}"),
-        (None, None) if above.ends_with("vertical") => format!("{name}, vertical"),
-        (None, None) => name.into(),
+    let (name, entry) = indexed(last).map_or((last.to_string(), None), |(name, index)| (name, Some(index)));
+    let whole = if above.is_empty() { name.clone() } else { format!("{above}.{name}") };
+    let known = |wanted: &str| QUANTITIES.iter().find(|(own, _, _)| own == &wanted);
+    let (mut words, unit) = match known(&whole).or_else(|| known(&name)) {
+        Some((_, words, unit)) => (words.to_string(), *unit),
+        None => (last.to_string(), ""),
     };
-    (name, unit)
+    let is_of_interfaces = name == "slide" || name == "factors" || whole.starts_with("friction");
+    match entry.filter(|_| known(&name).is_some() || is_of_interfaces) {
+        Some(number) if is_of_interfaces => words.push_str(&format!(" of interface {number}")),
+        Some(number) if above == "initial" => words.push_str(&format!(" of block {number}")),
+        _ => {}
+    }
+    for (table, number) in above.split('.').filter_map(indexed) {
+        words.push_str(&format!(" of {table} {number}"));
+    }
+    if above.split('.').any(|table| table == "vertical") {
+        words.push_str(", vertical");
+    }
+    (words, unit)
 }
 
 /// Quantity and unit of a key: `Half-width of block 2 [m]`.
@@ -316,6 +321,8 @@ mod tests {
         assert_eq!(label("initial.theta[1]"), "Initial θ of block 1 [rad]");
         assert_eq!(label("initial.slide[2]"), "Initial slide of interface 2 [m]");
         assert_eq!(label("restitution.factors[2]"), "Restitution factor of interface 2");
+        assert_eq!(label("excitation.vertical.term[2].amplitude"), "a of term 2, vertical [m/s²]");
+        assert_eq!(label("excitation.horizontal.accel[2]"), "accel[2]");
         assert_eq!(title("column.half_width", "0.4"), "Half-width = 0.4 m");
         assert_eq!(title("excitation.horizontal.file", "a/b.AT2"), "a/b.AT2");
         assert_eq!(shortened(&["r/a".into(), "s/a".into()]), ["r/a", "s/a"]);
