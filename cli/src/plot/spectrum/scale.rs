@@ -199,7 +199,7 @@ fn quantity(key: &str) -> (String, &'static str) {
         None => (last.to_string(), ""),
     };
     let is_of_interfaces = name == "slide" || name == "factors" || whole.starts_with("friction");
-    match entry.filter(|_| known(&name).is_some() || is_of_interfaces) {
+    match entry {
         Some(number) if is_of_interfaces => words.push_str(&format!(" of interface {number}")),
         Some(number) if above == "initial" => words.push_str(&format!(" of block {number}")),
         _ => {}
