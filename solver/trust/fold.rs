@@ -4,10 +4,10 @@
 
 use super::cancellation;
 use super::companions::with_scaled_motion;
-use super::verdict::Verdict;
+use super::verdict::{Verdict, verdict_alone};
 use crate::response::Response;
 use crate::run::SolveError;
-use crate::scene::{Scene, Wanted};
+use crate::scene::Scene;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -51,10 +51,7 @@ impl Fold {
         if scene.excitation.horizontal.is_none() && scene.excitation.vertical.is_none() {
             return Ok(None);
         }
-        let mut short = scene.clone();
-        short.options.wanted = Wanted::Overturns;
-        short.set_rows(None);
-        short.options.record_forces = false;
+        let short = verdict_alone(scene);
         let slides = response.motion_at_contacts().is_some();
         let sizes: &[f64] = if slides { &TRIED_WITH_SLIDING } else { &TRIED };
         let turn = |change: f64| {

@@ -3,10 +3,10 @@
 
 use super::cancellation;
 use super::companions::{Change, LARGEST_CHANGE};
-use super::verdict::Verdict;
+use super::verdict::{Verdict, verdict_alone};
 use crate::response::Response;
 use crate::run::SolveError;
-use crate::scene::{Scene, Wanted};
+use crate::scene::Scene;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -34,10 +34,7 @@ impl Further {
         verdict: Verdict,
         run: impl Fn(&Scene) -> Result<Response, SolveError> + Sync,
     ) -> Result<Further, SolveError> {
-        let mut short = scene.clone();
-        short.options.wanted = Wanted::Overturns;
-        short.set_rows(None);
-        short.options.record_forces = false;
+        let short = verdict_alone(scene);
         let sizes = (1..=OF_EACH_SIGN).map(|place| LARGEST_CHANGE * place as f64 / (OF_EACH_SIGN + 1) as f64);
         let changes: Vec<f64> = sizes.flat_map(|size| [size, -size]).collect();
         let has_verdict = |change: &f64| {

@@ -1,6 +1,7 @@
 //! The verdict of a run, as far as one asks whether the column stands.
 
 use crate::response::{Response, StopReason};
+use crate::scene::{Scene, Wanted};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -50,6 +51,15 @@ impl Verdict {
             Verdict::Undetermined => "ends undetermined",
         }
     }
+}
+
+/// The scene for a run of which nothing but the verdict is read.
+pub(super) fn verdict_alone(scene: &Scene) -> Scene {
+    let mut short = scene.clone();
+    short.options.wanted = Wanted::Overturns;
+    short.options.record_forces = false;
+    short.set_rows(None);
+    short
 }
 
 impl fmt::Display for Verdict {
