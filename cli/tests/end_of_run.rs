@@ -80,3 +80,18 @@ fn rows_of_a_sweep_say_whether_they_are_cut() {
     let table = folder.read("t.csv");
     assert_eq!(table.matches("overturns").count(), 2, "{table}");
 }
+
+/// Rows say how the column is drawn, not how it moves at the end of the run.
+#[test]
+fn a_run_with_few_rows_is_still_rocking() {
+    let block = "[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.56\n[restitution]\neta = 0.9\n[excitation.horizontal]\n\
+                 kind = \"sine-pulse\"\namplitude_uplift = 1.8\nomega_p = 5\nstart = 2.2\n[solver]\nt_end = 2.9\n";
+    for rows in ["dt = 0.01", "dt = 2.0", "times = [0.0, 0.1]"] {
+        let folder = Folder::with("s.toml", &format!("{block}[output]\n{rows}\n"));
+        let told = folder.succeeds("run s.toml --out o --no-trust --report");
+        assert!(
+            told.contains("still rocking") && folder.read("o/report.html").contains("still rocking"),
+            "{rows}: {told}"
+        );
+    }
+}

@@ -15,7 +15,7 @@ fn a_chaotic_run_is_not_determined_in_text_summary_figure_and_report() {
     let folder = Folder::with("chaotic.toml", CHAOTIC);
     let told = folder.succeeds("run chaotic.toml --out with --report --plots");
     assert!(told.starts_with("not determined; this run rocks and stands at t = 40.0000 s"), "{told}");
-    assert_has(&told, &["trust: angles are known up to t = ", "companions.csv"]);
+    assert_has(&told, &["angles are known up to t = ", "companions.csv"]);
     let summary = folder.json("with/summary.json");
     let trust = &summary["trust"];
     assert_eq!((&summary["status"], &trust["determined"]), (&"end-of-time".into(), &false.into()));
@@ -162,7 +162,7 @@ fn a_run_at_rest_is_compared_to_the_end_of_the_time() {
     let told = folder.succeeds("run s.toml");
     assert_has(
         &told,
-        &["not determined; ", "trust: angles are known up to t = ", "small changes grow more than ", "companions.csv"],
+        &["not determined; ", "angles are known up to t = ", "small changes grow more than ", "companions.csv"],
     );
     let trust = folder.summary()["trust"].clone();
     assert!(trust["input_horizon"].as_f64().expect("a number") > 1.0, "{trust}");

@@ -147,10 +147,15 @@ impl Reader<'_> {
         };
         let named = Component::named(&components, &requested);
         let Some(horizontal) = named.into_iter().find(|component| component.direction == Direction::Horizontal) else {
-            let problem = format!(
-                "it has no horizontal component `{requested}`{}; choose H1, H2 or the end of a file's name, or leave the record out",
-                listed(|component| component.direction == Direction::Horizontal)
-            );
+            let others = listed(|component| component.direction == Direction::Horizontal);
+            let problem = match others.is_empty() {
+                true => {
+                    format!("it has no horizontal component{}; add its file, or leave the record out", listed(|_| true))
+                }
+                false => format!(
+                    "it has no horizontal component `{requested}`{others}; choose H1, H2 or the end of a file's name, or leave the record out"
+                ),
+            };
             return Err(refuse("component", problem));
         };
         let up = components.iter().find(|component| component.direction == Direction::Vertical);

@@ -281,10 +281,15 @@ impl Trust {
         !self.determined && self.verdict != Verdict::Undetermined
     }
 
-    /// Time up to which the run is known, if its verdict is not determined `[s]`: the horizon, or that of the inputs where further companions reverse the
-    /// verdict.
+    /// Time up to which the run is known, if its verdict is not determined `[s]`: the horizon, or that of the inputs where the verdict is certain within the
+    /// horizon and changes of 1e-6 reverse it.
     pub fn known_until(&self) -> f64 {
-        if self.further.is_some() { self.input_horizon } else { self.horizon }
+        if self.is_open_by_inputs() { self.input_horizon } else { self.horizon }
+    }
+
+    /// Whether the verdict of the exact inputs is certain: if it is not determined, that is for changes of 1e-6.
+    fn is_open_by_inputs(&self) -> bool {
+        self.horizon >= self.certain_at
     }
 
     /// Whether all companions agree to the end of the run.
@@ -325,20 +330,14 @@ impl Trust {
             }
             return text;
         }
-        if let Some(Further { others, .. }) = self.further {
-            return format!(
-                "changes of 1e-6 leave angles known up to t = {:.4} s only{}; small changes grow {grown} times; of {count} companions {} another verdict",
-                self.input_horizon,
-                self.spacing(self.input_horizon),
-                if others == 1 { "1 has".into() } else { format!("{others} have") }
-            );
-        }
         let verdicts = self.verdicts();
-        let verdicts_in_words = match &verdicts[..] {
-            [(Some(verdict), _)] if *verdict == self.verdict => {
+        let verdicts_in_words = match (&verdicts[..], self.further) {
+            (_, Some(Further { others: 1, .. })) => format!("of {count} companions 1 has another verdict"),
+            (_, Some(Further { others, .. })) => format!("of {count} companions {others} have another verdict"),
+            ([(Some(verdict), _)], None) if *verdict == self.verdict => {
                 format!("all {count} companions {} as well, which proves nothing beyond", plural(*verdict))
             }
-            counts => {
+            (counts, None) => {
                 let counts: Vec<String> = counts.iter().map(|one| counted(*one)).collect();
                 format!("of {count} companions {}", counts.join(", "))
             }
@@ -347,7 +346,11 @@ impl Trust {
             && verdicts.iter().any(|(verdict, _)| *verdict == Some(Verdict::MayOverturn))
         {
             true => "angles are known to the end of the run, but the column may be falling then".to_string(),
-            false => format!("angles are known up to t = {:.4} s only{}", self.horizon, self.spacing(self.horizon)),
+            false => {
+                let (known, why) =
+                    (self.known_until(), if self.is_open_by_inputs() { "with changes of 1e-6 " } else { "" });
+                format!("{why}angles are known up to t = {known:.4} s only{}", self.spacing(known))
+            }
         };
         format!("{known}; small changes grow {grown} times; {verdicts_in_words}")
     }

@@ -310,6 +310,21 @@ fn regression_an_overturning_that_one_change_in_ten_prevents_is_not_determined()
     assert!(trust.determined && trust.further.is_none(), "{trust:?}");
 }
 
+/// An overturning that companions with changes of 1e-6 reverse: the run is known up to where these part, and its fall is not.
+#[test]
+fn a_fall_that_companions_reverse_is_not_known() {
+    let mut scene = Scene::new(Column::equal_blocks(3, 0.05, 1.0, 1.0, 9.81).expect("positive sizes"));
+    scene.restitution = Restitution::Eta(0.9);
+    let shaking = Synthetic { pga: 1.7 * 9.81 * 0.05, seed: 4, duration: 30.0, frequency: 2.0, ..Synthetic::default() };
+    scene.excitation.horizontal = Some(Motion::Record(shaking.record().expect("a record")));
+    scene.options.t_end = 40.0;
+    let (response, trust) = trust::follow(&scene).expect("a run");
+    assert!(response.status == StopReason::Overturned && !trust.determined && trust.further.is_none(), "{trust:?}");
+    assert!(trust.input_horizon < 8.0 && trust.horizon >= trust.certain_at, "{trust:?}");
+    assert_eq!(trust.known_until(), trust.input_horizon);
+    assert!(trust.sentence().starts_with("with changes of 1e-6 angles are known up to t = 7."), "{}", trust.sentence());
+}
+
 /// A column at the bound of sizes has no smaller companions: they failed, and its verdict was not determined.
 #[test]
 fn changes_beyond_the_bounds_make_no_companions() {

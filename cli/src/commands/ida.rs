@@ -250,10 +250,11 @@ fn tally(ida: &Ida, stripes: &[Stripe]) -> String {
     let _ = writeln!(text, "{}, errors {errors}", report.join(", "));
     let is_open = |(fate, count): (&Fate, usize)| *fate == Fate::NotDetermined && count > 0;
     if fates.clone().any(is_open) {
-        text.push_str(
-            "not determined: companions end otherwise, or part from the run before its verdict is certain (the book, trust; with trust = false such runs \
-             count as they end), or the column may be falling, or slides on, where the run ends (a longer free_swing settles that)\n",
-        );
+        let at_the_end =
+            "the column may be falling, or slides on, where the run ends (a longer free_swing settles that)";
+        let by_companions = "companions end otherwise, or part from the run before its verdict is certain (the book, trust; with trust = false such runs \
+                             count as they end), or ";
+        let _ = writeln!(text, "not determined: {}{at_the_end}", if ida.is_followed() { by_companions } else { "" });
     }
     text
 }

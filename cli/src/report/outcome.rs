@@ -101,10 +101,12 @@ fn end_of_run(results: &Results) -> (&'static str, String) {
 
 /// What the column of a run that stands at `t_end` does then; `None` where nothing moves any more.
 pub fn still_moves(response: &Response) -> Option<&'static str> {
-    let is_closed = || response.samples.last().is_some_and(|row| row.pattern.dof() == 0);
+    // Patterns change at events only: rows may end long before the run.
+    let last = response.events.last().map(|event| &event.after).or(response.samples.last().map(|row| &row.pattern));
+    let is_closed = last.is_some_and(|pattern| pattern.dof() == 0);
     match response.slides_on {
         true => Some("sliding or flying"),
-        false => (!is_closed()).then_some("rocking"),
+        false => (!is_closed).then_some("rocking"),
     }
 }
 

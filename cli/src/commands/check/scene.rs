@@ -355,8 +355,8 @@ impl Findings {
         if !gaining.is_empty() {
             let _ = writeln!(
                 text,
-                "  with interface(s) {} alone the stack above would gain energy (factor times Housner's ratio above 1): restitution is left out \
-                 there",
+                "  where interface(s) {} alone are open, the stack above would gain energy (factor times Housner's ratio above 1), and restitution is \
+                 left out; it may act where others are open as well",
                 gaining.join(", ")
             );
         }
