@@ -553,7 +553,7 @@ fn everyday_scenes_run_to_their_end() {
 
 #[test]
 fn hostile_scenes_run_to_their_end() {
-    check(Kind::Hostile, 0..300, &HOSTILE);
+    check(Kind::Hostile, 0..600, &HOSTILE);
 }
 
 /// Contacts beside coinciding corners that parted were not decided anew: these scenes ended undetermined.

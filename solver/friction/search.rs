@@ -1,13 +1,13 @@
 //! Which states the interfaces take: accelerations after an event, velocities after an impact (docs/book/model.md, sections 16 and 17).
 //!
 //! Every interface that touches has a list of states. A combination is admissible if contacts press, closed ones keep their resultant inside,
-//! sticking ones keep their force inside the friction cone, sliding ones slide against their friction, corners and free interfaces do not sink in:
+//! sticking ones keep their force inside the friction cone, slides that begin go against their friction, corners and free interfaces do not sink in:
 //!
 //! ```text
-//! closed: |M| <= c N      corner: N >= 0, s φ̈ >= 0      sticks: |T| <= μ N      slides: T = -ε μ N, ε ü >= 0      free: gap acceleration >= 0
+//! closed: |M| <= c N      corner: N >= 0, s φ̈ >= 0      sticks: |T| <= μ N      slides: T = -ε μ N      free: gap acceleration >= 0
 //! ```
 //!
-//! and the same with velocities and impulses in an impact. The search begins with what sticks and lets each violated condition name the next
+//! A slide that begins has `ε ü >= 0` besides. In an impact velocities and impulses take the places of accelerations and forces. The search begins with what sticks and lets each violated condition name the next
 //! state. Where it goes in circles, it begins anew from the solution of a complementarity problem ([`super::complementarity`]). Where that fails as
 //! well, and where a few blocks of large coefficients may have several answers, all combinations are tried: the admissible one with the fewest changes
 //! holds, in an impact the one with the least energy of the change.
@@ -36,7 +36,7 @@ pub struct Solution {
     pub joints: PerBlock<Joint>,
     /// Accelerations and forces, or velocities and impulses.
     pub answer: Answer,
-    /// Whether states with another motion are admissible too; `false` if not all combinations were tried.
+    /// Whether states with another motion are known to be admissible too; `false` where no others were tried.
     pub is_ambiguous: bool,
 }
 
@@ -165,7 +165,11 @@ impl<'a> Search<'a> {
 
     /// The states that follow; the search begins with the states `first`. `None` if no states are admissible.
     pub fn solve_from(&self, first: PerBlock<Joint>) -> Option<Solution> {
-        let found = self.solve_with_slides(first.clone())?;
+        let found = self.solve_with_slides(first.clone());
+        if let Some(sticking) = self.without_slides(&first, found.as_ref()) {
+            return Some(sticking);
+        }
+        let found = found?;
         // Of the states with which the search begins, only a slide that a guard has named may begin without others being examined.
         let usual = self.first();
         let is_named = |i: usize| first[i] != usual[i];
@@ -174,6 +178,30 @@ impl<'a> Search<'a> {
             return Some(found);
         }
         Some(self.with_flat_slides(self.with_fewest_slides(found)))
+    }
+
+    /// The states in which everything sticks that touches, if they are admissible beside those found, in which something slides: they come first. Only with
+    /// less kinetic than static friction, or with large coefficients, both may be admissible. `None` also where something slides on, or is to begin.
+    fn without_slides(&self, first: &[Joint], found: Option<&Solution>) -> Option<Solution> {
+        let stick = |joints: &[Joint]| joints.iter().all(|joint| joint.sticks() || *joint == Joint::Free);
+        let is_unique = self.largest_coefficient() <= AMBIGUOUS_FROM
+            && (self.is_impact() || self.friction.fixed == self.friction.kinetic);
+        if is_unique || !stick(first) || found.is_some_and(|found| stick(&found.joints)) {
+            return None;
+        }
+        let sticking = self.follow(PerBlock::from_slice(first), |next| next.sticks() || *next == Joint::Free)?;
+        let touches = |(joint, touch): (&Joint, &Touch)| joint.sticks() || *touch == Touch::Nothing;
+        let holds = sticking.joints.iter().zip(self.touch).all(touches)
+            && self.is_admissible(&sticking.joints, &sticking.answer, self.slack);
+        let is_second = |other: &Solution| {
+            self.is_other(&sticking.answer, &other.answer) && self.is_clear(&other.joints, &other.answer)
+        };
+        let is_ambiguous = holds && found.is_some_and(is_second);
+        holds.then_some(Solution { is_ambiguous, ..sticking })
+    }
+
+    fn largest_coefficient(&self) -> f64 {
+        self.friction.fixed.iter().chain(&self.friction.kinetic).fold(0.0, |most, mu| most.max(*mu))
     }
 
     /// With less kinetic than static friction, several sets of slides may be admissible: that with the fewest slides that begin holds, then that with the least
@@ -186,8 +214,7 @@ impl<'a> Search<'a> {
         }
         let solution = |joints: PerBlock<Joint>| {
             let answer = self.answer(&joints)?;
-            let is_clear = self.is_admissible(&joints, &answer, self.slack.margin());
-            is_clear.then_some(Solution { joints, answer, is_ambiguous: true })
+            self.is_clear(&joints, &answer).then_some(Solution { joints, answer, is_ambiguous: true })
         };
         let cost = |solution: &Solution| (begun(&solution.joints), solution.answer.change.energy(self.column));
         loop {
@@ -281,8 +308,7 @@ impl<'a> Search<'a> {
     /// The states that follow, with as many slides as the search comes to.
     fn solve_with_slides(&self, first: PerBlock<Joint>) -> Option<Solution> {
         let found = self.follow_violations(first.clone());
-        let largest = self.friction.fixed.iter().chain(&self.friction.kinetic).fold(0.0f64, |most, mu| most.max(*mu));
-        let may_be_ambiguous = largest > AMBIGUOUS_FROM && first.len() <= MOST_BLOCKS_TRIED;
+        let may_be_ambiguous = self.largest_coefficient() > AMBIGUOUS_FROM && first.len() <= MOST_BLOCKS_TRIED;
         match found {
             Some(found) if found.joints.iter().all(|joint| joint.sticks()) || !may_be_ambiguous => Some(found),
             _ if may_be_ambiguous => self.best_of_all(&first, |_, _| true),
@@ -398,12 +424,17 @@ impl<'a> Search<'a> {
     /// Changes states as violated conditions name them, until none is violated. `None` where this goes in circles, takes too many rounds, or comes to
     /// states without an answer.
     fn follow_violations(&self, first: PerBlock<Joint>) -> Option<Solution> {
+        self.follow(first, |_| true)
+    }
+
+    /// As [`Search::follow_violations`], with the violations alone that name an `allowed` state.
+    fn follow(&self, first: PerBlock<Joint>, allowed: impl Fn(&Joint) -> bool) -> Option<Solution> {
         let mut visited: Vec<PerBlock<Joint>> = Vec::new();
         let mut joints = first;
         for _ in 0..8 * joints.len() + 8 {
             let answer = self.answer(&joints)?;
-            let required = |i: usize| self.required(&joints, &answer, i, self.slack).map(|next| (i, next));
-            let required: Vec<(usize, Joint)> = (0..joints.len()).filter_map(required).collect();
+            let required = |i: usize| self.required(&joints, &answer, i, self.slack).filter(&allowed);
+            let required: Vec<(usize, Joint)> = (0..joints.len()).filter_map(|i| Some((i, required(i)?))).collect();
             if required.is_empty() {
                 return Some(Solution { joints, answer, is_ambiguous: false });
             }
@@ -453,13 +484,21 @@ impl<'a> Search<'a> {
         }
         admissible.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         let (_, _, joints, answer) = admissible.first()?.clone();
-        let is_other = |other: &Answer| {
-            let pairs = other.change.linear.iter().zip(&answer.change.linear);
-            pairs.into_iter().any(|(a, b)| (a[0] - b[0]).abs() + (a[1] - b[1]).abs() > OTHER_SHARE * self.linear)
-        };
-        // What is exactly critical and only just admissible, such as sticking where a slide begins, is no second answer.
-        let is_clear = |joints: &[Joint], other: &Answer| self.is_admissible(joints, other, self.slack.margin());
-        let is_ambiguous = admissible.iter().any(|(_, _, joints, other)| is_other(other) && is_clear(joints, other));
+        let is_second =
+            |joints: &[Joint], other: &Answer| self.is_other(&answer, other) && self.is_clear(joints, other);
+        let is_ambiguous = admissible.iter().any(|(_, _, joints, other)| is_second(joints, other));
         Some(Solution { joints, answer, is_ambiguous })
+    }
+
+    /// Whether two answers are different motions.
+    fn is_other(&self, one: &Answer, other: &Answer) -> bool {
+        let mut pairs = other.change.linear.iter().zip(&one.change.linear);
+        pairs.any(|(a, b)| (a[0] - b[0]).abs() + (a[1] - b[1]).abs() > OTHER_SHARE * self.linear)
+    }
+
+    /// Whether states are admissible by more than rounding. What is exactly critical and only just admissible, such as sticking where a slide begins, is no
+    /// second answer.
+    fn is_clear(&self, joints: &[Joint], answer: &Answer) -> bool {
+        self.is_admissible(joints, answer, self.slack.margin())
     }
 }

@@ -417,3 +417,39 @@ fn methods_agree_on_low_hops() {
     }
     assert!(compared > 100, "{compared}");
 }
+
+/// What everything does that touches, sticking, comes before slides that are admissible as well: what a jump of the ground starts depends neither on the
+/// length of the steps, and so on the method, nor on when the run ends. With one coefficient no other motion is admissible.
+#[test]
+fn what_a_jump_starts_depends_on_neither_method_nor_end() {
+    let mut random = Random::new(11);
+    let mut openings = 0;
+    for seed in 0..600 {
+        let mut block = || Block::rectangle(random.within(0.15, 0.3), random.within(0.3, 0.6), 1.0);
+        let blocks = vec![block(), block()];
+        let fixed: Vec<f64> = (0..2).map(|_| random.within(0.25, 0.45)).collect();
+        let kinetic = fixed.iter().map(|fixed| fixed * random.within(0.6, 1.0)).collect();
+        let mut scene = scene(blocks, fixed.clone());
+        scene.friction = Some(Friction::new(fixed, kinetic));
+        let phase = random.within(3.3, 4.5);
+        scene.excitation.horizontal =
+            Some(Motion::SineBurst { amplitude: 0.62 * GRAVITY, omega: 4.5, start: 0.0, phase, duration: 0.25 });
+        let mut starts = Vec::new();
+        for (method, t_end) in
+            [(Method::Auto, 0.2), (Method::Auto, 0.03), (Method::Dop853, 0.2), (Method::DormandPrince54, 0.03)]
+        {
+            (scene.options.method, scene.options.t_end, scene.output_dt) = (method, t_end, Some(0.01));
+            let response = run(&scene);
+            let at_once = response.events.iter().filter(|event| event.t == 0.0);
+            let first: Vec<_> = at_once.map(|event| event.after.clone()).collect();
+            starts.push((first, response.samples[1].theta.clone()));
+        }
+        for (first, theta) in &starts[1..] {
+            assert_eq!(*first, starts[0].0, "seed {seed}");
+            let parts = theta.iter().zip(&starts[0].1).any(|(a, b)| (a - b).abs() > 1e-9);
+            assert!(!parts, "seed {seed}: {starts:?}");
+        }
+        openings += usize::from(starts[0].1.iter().any(|theta| *theta != 0.0));
+    }
+    assert!(openings > 100, "{openings} of 600");
+}
