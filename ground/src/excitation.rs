@@ -37,7 +37,7 @@ impl Excitation {
             let Some(motion) = motion else { continue };
             for record in records(motion) {
                 let own = record.warnings().iter().cloned().chain(misused(record, direction));
-                warnings.extend(own.map(|warning| format!("record {}: {warning}", record.source().file)));
+                warnings.extend(own.map(|warning| format!("{}: {warning}", called(record))));
             }
             warnings.extend(cut_at_start(name, motion));
         }
@@ -63,11 +63,11 @@ impl Excitation {
         let is_odd = apart.abs() > horizontal.dt().max(vertical.dt()) && apart.abs() < LONGEST_RECORDING;
         is_odd.then(|| {
             format!(
-                "record {}: by the times in the files it is {:.3} s {} than here beside the horizontal record {}; give each a `start` of its own, in [excitation.horizontal] and [excitation.vertical], or trim one",
-                vertical.source().file,
+                "{}: by the times in the files it is {:.3} s {} than here beside the horizontal {}; give each a `start` of its own, in [excitation.horizontal] and [excitation.vertical], or trim one",
+                called(vertical),
                 apart.abs(),
                 if apart > 0.0 { "later" } else { "earlier" },
-                horizontal.source().file
+                called(horizontal)
             )
         })
     }
@@ -120,6 +120,12 @@ impl Excitation {
             }
         }
     }
+}
+
+/// A record by the name of its file, if it has one.
+fn called(record: &Record) -> String {
+    let file = &record.source().file;
+    if file.is_empty() { "the record".into() } else { format!("record {file}") }
 }
 
 /// The records of a motion.

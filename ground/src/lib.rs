@@ -16,6 +16,7 @@ mod open;
 mod options;
 mod oscillator;
 mod piece;
+mod plausibility;
 mod record;
 mod segment;
 mod spans;

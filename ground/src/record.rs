@@ -4,7 +4,9 @@ use crate::bounds::{LARGEST_ACCELERATION, LONGEST_INTERVAL, SHORTEST_INTERVAL};
 use crate::component::{Direction, record_and_component};
 use crate::error::RecordError;
 use crate::piece::Piece;
+use crate::plausibility::{LEAST_SAMPLES_OF_SHAKING, doubtful_interval, doubtful_samples, missing_sample};
 use crate::spans::Span;
+use crate::unit::AccelerationUnit;
 use serde::ser::SerializeStruct;
 use serde::{Deserialize, Serialize};
 use std::ops::Deref;
@@ -139,6 +141,30 @@ impl Record {
         Ok(Record { accel: accel.into(), dt, start, scale: 1.0, source, first_sample: None, warnings })
     }
 
+    /// A record of samples in a unit, one every `dt [s]` from time zero; one g is `gravity [m/s²]`. As of a file, what is hardly a record of an earthquake
+    /// is a [warning](Record::warnings): a peak above 20 g, a sample of -999, an interval above 0.1 s in a hundred samples and more.
+    ///
+    /// ```
+    /// use rocking_ground::{AccelerationUnit, Record};
+    /// let record = Record::from_samples(&[0.0, 300.0, -300.0], AccelerationUnit::MetrePerSecondSquared, 0.01, 9.81)?;
+    /// assert!(record.warnings()[0].contains("30.6 g"));
+    /// let record = Record::from_samples(&[0.0, 300.0, -300.0], AccelerationUnit::CentimetrePerSecondSquared, 0.01, 9.81)?;
+    /// assert!(record.peak() == 3.0 && record.warnings().is_empty());
+    /// # Ok::<(), rocking_ground::RecordError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`RecordError`], as of [`Record::new`].
+    pub fn from_samples(values: &[f64], unit: AccelerationUnit, dt: f64, gravity: f64) -> Result<Record, RecordError> {
+        let size = unit.in_si(gravity);
+        let record = Record::new(values.iter().map(|value| value * size).collect(), dt, 0.0)?;
+        let mut warnings: Vec<String> = missing_sample(values, dt).into_iter().collect();
+        warnings.extend(doubtful_samples(&record.accel, unit, gravity));
+        // Short lists of samples are made by hand, at any interval.
+        warnings.extend(doubtful_interval(dt).filter(|_| values.len() >= LEAST_SAMPLES_OF_SHAKING));
+        Ok(Record { warnings, ..record })
+    }
+
     /// Serialises all but samples and warnings.
     pub(crate) fn describe<S: SerializeStruct>(&self, fields: &mut S) -> Result<(), S::Error> {
         fields.serialize_field("samples", &self.accel.len())?;
@@ -177,7 +203,7 @@ impl Record {
         &self.source
     }
 
-    /// Warnings about the file of the record, a sentence each.
+    /// Warnings about the file of the record or its samples, a sentence each.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
     }

@@ -22,6 +22,14 @@ impl From<rocking::Record> for Record {
     }
 }
 
+/// The unit of a name.
+fn unit(name: &str) -> PyResult<AccelerationUnit> {
+    AccelerationUnit::parse(name).ok_or_else(|| {
+        let known = AccelerationUnit::NAMES.join(", ");
+        PyValueError::new_err(format!("there is no unit `{name}`; give one of {known}"))
+    })
+}
+
 impl Record {
     fn refused(&self, py: Python<'_>, error: &rocking::RecordError) -> PyErr {
         error::record(py, &self.record.source().file, error)
@@ -30,12 +38,29 @@ impl Record {
 
 #[pymethods]
 impl Record {
-    /// Samples `[m/s²]`, their interval `[s]`, the time of the first `[s]`, a name.
+    /// Samples and their unit, their interval `[s]`, the time of the first `[s]`, a name.
     #[new]
-    fn new(py: Python<'_>, accel: PyReadonlyArray1<'_, f64>, dt: f64, start: f64, name: &str) -> PyResult<Record> {
-        let accel = accel.as_array().to_vec();
-        let record = rocking::Record::new(accel, dt, start).map_err(|error| error::record(py, name, &error))?;
-        Ok(record.named(name).into())
+    fn new(
+        py: Python<'_>,
+        accel: PyReadonlyArray1<'_, f64>,
+        dt: f64,
+        start: f64,
+        name: &str,
+        units: &str,
+        gravity: f64,
+    ) -> PyResult<Record> {
+        let units = unit(units)?;
+        above_zero("gravity", gravity)?;
+        let refused = |error: rocking::RecordError| error::record(py, name, &error);
+        if !start.is_finite() {
+            return Err(refused(rocking::RecordError::OutOfRange {
+                name: "start",
+                value: start,
+                wanted: "a finite number",
+            }));
+        }
+        let record = rocking::Record::from_samples(&accel.as_array().to_vec(), units, dt, gravity).map_err(refused)?;
+        Ok(record.starting_at(start).named(name).into())
     }
 
     /// Reads a file.
@@ -53,13 +78,7 @@ impl Record {
         skip_rows: usize,
         column: Option<String>,
     ) -> PyResult<Record> {
-        let units = match units {
-            None => None,
-            Some(name) => Some(AccelerationUnit::parse(name).ok_or_else(|| {
-                let known = AccelerationUnit::NAMES.join(", ");
-                PyValueError::new_err(format!("there is no unit `{name}`; give one of {known}"))
-            })?),
-        };
+        let units = units.map(unit).transpose()?;
         above_zero("gravity", gravity)?;
         let options = TextOptions { gravity, dt, units, lenient, channel, skip_rows, column };
         let name = file.to_string_lossy().into_owned();

@@ -134,3 +134,24 @@ def test_arguments_of_the_wrong_kind_are_named() -> None:
     ):
         with pytest.raises(TypeError, match=told):
             call()
+
+
+def test_samples_of_an_array_are_doubted_as_those_of_a_file(tmp_path: Path) -> None:
+    waves = np.sin(0.1 * np.arange(500)) * np.linspace(1, 0, 500)
+    wrong = rk.Record(300 * waves, dt=0.01)
+    wrong.to_csv(tmp_path / "wrong.csv")
+    assert wrong.warnings == rk.Record.read(tmp_path / "wrong.csv").warnings and "hardly one" in wrong.warnings[0]
+    column = rk.Column.prisms(1, half_width=0.4, half_height=1.56)
+    for motion in (wrong, {"kind": "record", "accel": (300 * waves).tolist(), "dt": 0.01}):
+        assert any("the record: a peak of" in warning for warning in rk.simulate(column, motion, t_end=1).warnings)
+    right = rk.Record(300 * waves, dt=0.01, units="cm/s2")
+    assert right.warnings == [] and np.allclose(right.accel, 3 * waves, rtol=1e-15, atol=0)
+    in_g = {"kind": "record", "accel": waves.tolist(), "dt": 0.01, "units": "g"}
+    assert np.array_equal(rk.simulate(column, in_g, t_end=1).theta, rk.simulate(column, rk.Record(waves, dt=0.01, units="g"), t_end=1).theta)
+    assert "hardly one" in rk.Record(waves, dt=10).warnings[0]
+    assert "missing" in rk.Record([0.0, -999.0, 0.0], dt=0.01).warnings[0]
+    assert rk.Record([0.0, 1.0, -1.0, 0.0], dt=0.5).warnings == []
+    with pytest.raises(ValueError, match="no unit `kg`"):
+        rk.Record(waves, dt=0.01, units="kg")
+    with pytest.raises(ValueError, match="accel is no array"):
+        rk.Record([[1.0], [1.0, 2.0]], dt=0.01)  # type: ignore[list-item]

@@ -158,11 +158,10 @@ impl Reader<'_> {
             (Some((name, _)), None) => (self.record_file(table, "file", &name, &options)?, "file"),
             (None, Some(accel)) => {
                 let Some(dt) = dt else { return Err(table.missing("dt", "give the sampling interval in s").into()) };
-                let scale = units.map_or(1.0, |unit| unit.in_si(gravity));
-                let accel = accel.into_iter().map(|a| a * scale).collect();
+                let unit = units.unwrap_or(AccelerationUnit::MetrePerSecondSquared);
                 let refused =
                     |error: crate::RecordError| table.wrong("accel", error.to_string(), "correct the samples");
-                (Record::new(accel, dt, 0.0).map_err(refused)?, "accel")
+                (Record::from_samples(&accel, unit, dt, gravity).map_err(refused)?, "accel")
             }
             (Some(_), Some(_)) => {
                 return Err(table.clash("accel", "file").into());

@@ -2,6 +2,7 @@
 
 use super::numbers::Samples;
 use crate::error::RecordError;
+use crate::plausibility::{doubtful_interval, doubtful_samples, missing_sample};
 use crate::record::{Record, Source};
 use crate::unit::AccelerationUnit;
 use serde::Serialize;
@@ -45,18 +46,6 @@ impl Format {
         matches!(self, Format::Csmip | Format::Cosmos)
     }
 }
-
-/// Largest plausible peak in g: no instrument has recorded it on the ground. A file with a larger one is likely to be in another unit.
-const LARGEST_PEAK_IN_G: f64 = 20.0;
-
-/// Largest plausible share of the peak that the last sample has: those of whole records are below a hundredth.
-const LARGEST_LAST_SHARE: f64 = 0.1;
-
-/// Least number of samples of a file whose last sample is compared with its peak: shorter ones are made by hand.
-const LEAST_SAMPLES_OF_SHAKING: usize = 100;
-
-/// Plausible sampling intervals `[s]`: strong motion is sampled at 20 Hz or more, and up to some 1000 Hz.
-const PLAUSIBLE_INTERVALS: std::ops::RangeInclusive<f64> = 1e-4..=0.1;
 
 /// The peak acceleration that a header states.
 pub(super) struct StatedPeak {
@@ -104,18 +93,6 @@ pub struct RecordFile {
     pub channels: Vec<String>,
     /// Warnings, a sentence each.
     pub warnings: Vec<String>,
-}
-
-/// Numbers that stand for missing samples in the files of many programs.
-const MISSING: [f64; 3] = [-999.0, -9999.0, -99999.0];
-
-/// Warning that a sample is a number that often stands for a missing one.
-fn missing_sample(values: &[f64], dt: f64) -> Option<String> {
-    let place = values.iter().position(|value| MISSING.contains(value))?;
-    let (sample, t, value) = (place + 1, place as f64 * dt, values[place]);
-    Some(format!(
-        "sample {sample}, at {t:.6} s, is {value}, which often stands for a missing one, and is read as an acceleration"
-    ))
 }
 
 impl RecordFile {
@@ -172,30 +149,10 @@ impl RecordFile {
         Ok(())
     }
 
-    /// Adds a warning for what is possible but hardly a record of an earthquake. One g is `gravity [m/s²]`.
+    /// Adds warnings about what is possible but hardly a record of an earthquake. One g is `gravity [m/s²]`.
     pub(super) fn check_plausibility(&mut self, gravity: f64) {
-        let (peak, dt) = (self.peak() / gravity, self.dt);
-        if peak == 0.0 {
-            self.warnings.push("all samples are zero: is another column the acceleration?".into());
-        }
-        if peak > LARGEST_PEAK_IN_G {
-            self.warnings.push(format!(
-                "a peak of {peak:.1} g is hardly one; are the samples in another unit than {}?",
-                self.unit
-            ));
-        }
-        let share = self.accel.last().map_or(0.0, |last| last.abs()) / self.peak();
-        if self.accel.len() >= LEAST_SAMPLES_OF_SHAKING && share > LARGEST_LAST_SHARE {
-            self.warnings.push(format!(
-                "the last sample is {:.0} % of the peak; does the file end while the ground still shakes?",
-                100.0 * share
-            ));
-        }
-        if !PLAUSIBLE_INTERVALS.contains(&dt) {
-            self.warnings.push(format!(
-                "a sampling interval of {dt} s is hardly one; are the times in another unit than s, or numbers of rows?"
-            ));
-        }
+        self.warnings.extend(doubtful_samples(&self.accel, self.unit, gravity));
+        self.warnings.extend(doubtful_interval(self.dt));
     }
 
     /// The record of these samples, with its origin.

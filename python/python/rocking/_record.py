@@ -41,28 +41,44 @@ class Record:
     Parameters
     ----------
     accel : array, shape (samples,)
-        Accelerations [m/s²].
+        Accelerations.
     dt : float
         Sampling interval [s].
     start : float
         Time of the first sample [s].
     name : str
         As in tables and reports.
+    units : str
+        Unit of ``accel``: ``m/s2``, ``cm/s2``, ``mm/s2``, ``gal``, ``g``, ``mg``, ``in/s2``, ``ft/s2``.
+    gravity : float
+        One g of the samples [m/s²].
 
     >>> Record([0.0, 1.0, -1.0, 0.0], dt=0.01).duration
     0.03
     """
 
-    def __init__(self, accel: npt.ArrayLike, dt: float, *, start: float = 0.0, name: str = "") -> None:
+    def __init__(
+        self,
+        accel: npt.ArrayLike,
+        dt: float,
+        *,
+        start: float = 0.0,
+        name: str = "",
+        units: str = "m/s2",
+        gravity: float = GRAVITY,
+    ) -> None:
         if accel is None or isinstance(accel, (str, os.PathLike)):
             raise TypeError(f"accel is of {type(accel).__name__}; give accelerations [m/s²], or read a file with Record.read")
         if np.ma.is_masked(accel):
             raise ValueError("accel has masked samples; fill them, or cut the record there")
         if isinstance(accel, (bytes, bytearray, memoryview)):
             raise TypeError(f"accel is of {type(accel).__name__}; give accelerations [m/s²], as numpy.frombuffer reads them")
-        if np.iscomplexobj(accel):
+        try:
+            given = np.asarray(accel)
+        except ValueError as error:
+            raise ValueError(f"accel is no array of accelerations ({error}); give one acceleration [m/s²] per sample") from None
+        if np.iscomplexobj(given):
             raise ValueError("accel is complex; give real accelerations [m/s²]")
-        given = np.asarray(accel)
         if given.dtype.kind in "mMSU":
             raise TypeError(f"accel has {'times' if given.dtype.kind in 'mM' else 'texts'}; give accelerations [m/s²]")
         if given.ndim == 0 and given.dtype.kind == "O":
@@ -70,7 +86,8 @@ class Record:
         samples = np.ascontiguousarray(numbers("accel", given))
         if samples.ndim != 1:
             raise ValueError(f"accel has the shape {samples.shape}; give one acceleration per sample")
-        self._record = _rocking.Record(samples, number("dt", dt), number("start", start), text("name", name))
+        start, units, gravity = number("start", start), text("units", units), number("gravity", gravity)
+        self._record = _rocking.Record(samples, number("dt", dt), start, text("name", name), units, gravity)
 
     @classmethod
     def _of(cls, record: _rocking.Record) -> "Record":
@@ -236,7 +253,7 @@ class Record:
 
     @property
     def warnings(self) -> list[str]:
-        """What is to be known of the file, a sentence each."""
+        """What is to be known of the file or the samples, a sentence each."""
         return self._record.warnings
 
     def measures(self, gravity: float = GRAVITY) -> dict[str, float]:

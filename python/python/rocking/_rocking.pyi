@@ -38,7 +38,7 @@ MEASURES: Final[list[str]]
 
 @final
 class Record:
-    def __new__(cls, accel: _Array, dt: float, start: float, name: str) -> Record: ...
+    def __new__(cls, accel: _Array, dt: float, start: float, name: str, units: str, gravity: float) -> Record: ...
     @staticmethod
     def read(
         file: str,
