@@ -45,8 +45,10 @@ impl Signals {
         }
     }
 
+    /// Ends the computation.
+    ///
     /// # Errors
-    /// What a handler raised.
+    /// The exception that a signal handler raised.
     pub fn finish(self) -> PyResult<()> {
         self.raised.map_or(Ok(()), Err)
     }

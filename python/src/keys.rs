@@ -26,17 +26,22 @@ pub fn to_toml(keys: &Bound<'_, PyDict>) -> PyResult<String> {
     Ok(text)
 }
 
-/// Values first, then tables, as TOML wants it.
+/// The table whose keys have an order that counts: the last axis of a sweep runs fastest.
+const AXES: &str = "axes";
+
+/// Values first, then tables, as TOML wants it; in [`AXES`] all as values, in their order.
 fn table(text: &mut String, path: &str, keys: &Bound<'_, PyDict>) -> PyResult<()> {
     let mut inner = Vec::new();
     for (key, value) in keys.iter() {
-        let key: String = key.extract().map_err(|_| PyTypeError::new_err(format!("{path}: a key must be text")))?;
-        let key = bare_or_quoted(&key);
+        let key = name(path, &key)?;
         let dotted = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
         match found(&dotted, &value)? {
             Found::Nothing => {}
             Found::Value(value) => {
                 let _ = writeln!(text, "{key} = {value}");
+            }
+            Found::Table(keys) if path == AXES => {
+                let _ = writeln!(text, "{key} = {}", inline(&dotted, &keys)?);
             }
             tables => inner.push((dotted, tables)),
         }
@@ -57,6 +62,32 @@ fn table(text: &mut String, path: &str, keys: &Bound<'_, PyDict>) -> PyResult<()
         }
     }
     Ok(())
+}
+
+/// A key of a table, as TOML writes it.
+fn name(path: &str, key: &Bound<'_, PyAny>) -> PyResult<String> {
+    let key: String = key.extract().map_err(|_| PyTypeError::new_err(format!("{path}: a key must be text")))?;
+    Ok(bare_or_quoted(&key))
+}
+
+/// A table on one line.
+fn inline(path: &str, keys: &Bound<'_, PyDict>) -> PyResult<String> {
+    let mut entries = Vec::new();
+    for (key, value) in keys.iter() {
+        let key = name(path, &key)?;
+        let dotted = format!("{path}.{key}");
+        let value = match found(&dotted, &value)? {
+            Found::Nothing => continue,
+            Found::Value(value) => value,
+            Found::Table(keys) => inline(&dotted, &keys)?,
+            Found::Tables(tables) => {
+                let tables: PyResult<Vec<String>> = tables.iter().map(|keys| inline(&dotted, keys)).collect();
+                format!("[{}]", tables?.join(", "))
+            }
+        };
+        entries.push(format!("{key} = {value}"));
+    }
+    Ok(format!("{{ {} }}", entries.join(", ")))
 }
 
 fn found<'py>(key: &str, value: &Bound<'py, PyAny>) -> PyResult<Found<'py>> {

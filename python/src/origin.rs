@@ -4,7 +4,7 @@ use rocking::run_folder::SceneText;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// The file of a scene, as reports name it.
+/// File and text from which a scene was read: reports name the file and show the text.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Origin {
     pub file: PathBuf,

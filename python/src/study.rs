@@ -159,7 +159,7 @@ impl Ida {
         Ok(Scene { scene: Arc::new(scene), origin: Arc::new(Origin::default()) })
     }
 
-    /// The rows of a range of runs.
+    /// The table of a range of runs, as a list of columns.
     fn table<'py>(&self, py: Python<'py>, start: usize, stop: usize, threads: usize) -> PyResult<Bound<'py, PyList>> {
         let range = range(start, stop, self.ida.len())?;
         let runs = in_order(py, range, threads, || self.ida.worker())?;

@@ -90,7 +90,7 @@ impl Sweep {
         Ok(Scene { scene: Arc::new(scene), origin: Arc::new(origin) })
     }
 
-    /// The rows of a range of points.
+    /// The table of a range of points, as a list of columns.
     fn table<'py>(&self, py: Python<'py>, start: usize, stop: usize, threads: usize) -> PyResult<Bound<'py, PyList>> {
         let range = range(start, stop, self.sweep.len())?;
         let fields = self.sweep.fields().map_err(|refused| error::scene(py, &refused))?;

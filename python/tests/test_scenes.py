@@ -334,3 +334,18 @@ def test_errors_beside_a_record_in_memory_name_the_line_of_the_text():
             rk.Scene(column, record, **arguments)
         good = {**arguments, **({"eta": 0.9} if "eta = " in key else {"t_end": 3.0})}
         assert rk.Scene(column, record, **good).toml.splitlines()[refused.value.line - 1] == key
+
+
+def test_a_table_of_settings_in_keys_leaves_the_other_settings() -> None:
+    scene = rk.Scene(COLUMN, t_end=5, rtol=1e-7, keys={"solver": {"method": "rk4"}})
+    assert scene.keys["solver"] == {"t_end": 5, "rtol": 1e-7, "method": "rk4"}
+    assert scene.replace(keys={"solver": {"rtol": None}}).keys["solver"] == {"t_end": 5, "method": "rk4"}
+
+
+def test_an_argument_that_is_fixed_is_named() -> None:
+    with pytest.raises(TypeError, match="leave `shape` out"):
+        rk.Column.drums(3, half_width=0.4, height=3, shape="prism")
+    with pytest.raises(TypeError, match="no argument `rows`"):
+        rk.trust(rk.Scene(COLUMN), rows=True)  # type: ignore[call-arg]
+    with pytest.raises(TypeError, match="text is of int"):
+        rk.Scene.from_toml(5)  # type: ignore[arg-type]

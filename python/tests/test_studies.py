@@ -608,3 +608,33 @@ def test_cells_that_are_no_numbers_are_named() -> None:
     # Names of columns that are numbers are those of columns of text.
     study = rk.Study(table.assign(**{"0": 1.0}).rename(columns={"0": 0}), "pgv")
     assert study.stripes.runs.tolist() == [1, 1]
+
+
+def test_axes_keep_their_order_whatever_their_values(tmp_path: Path) -> None:
+    ranged = rk.Sweep(SCENE, {"omega_p": {"from": 1, "to": 3, "steps": 3}, "amplitude_uplift": [1.5, 2.0]})
+    listed = rk.Sweep(SCENE, {"omega_p": [1.0, 2.0, 3.0], "amplitude_uplift": [1.5, 2.0]})
+    assert list(ranged.axes) == list(listed.axes) == ["excitation.horizontal.omega_p", "excitation.horizontal.amplitude_uplift"]
+    pd.testing.assert_frame_equal(ranged.table(), listed.table())
+    # A range behind or before a list, read from a file, keeps its place in another process.
+    SCENE.save(tmp_path / "base.toml")
+    file = tmp_path / "sweep.toml"
+    file.write_text('scene = "base.toml"\n[axes]\nomega_p = { from = 1, to = 3, steps = 3 }\namplitude_uplift = [1.5, 2.0]\n')
+    loaded = rk.Sweep.load(file)
+    for copied in (pickle.loads(pickle.dumps(loaded)), pickle.loads(pickle.dumps(ranged))):
+        assert list(copied.axes) == list(ranged.axes)
+        pd.testing.assert_frame_equal(copied.table(), ranged.table())
+
+
+def test_fractiles_are_drawn_of_three_records_or_more() -> None:
+    for count in (2, 3):
+        study = rk.ida(COLUMN, rk.synthetic(range(count)), "pgv", [0.2, 3.0], trust=False)
+        lines = study.plot().get_lines()
+        labels = [line.get_label() for line in lines if str(line.get_label()).endswith("%")]
+        assert len(labels) == (3 if count == 3 else 0)
+        plt.close()
+
+
+def test_what_is_handed_out_is_a_copy() -> None:
+    curve = rk.ida(COLUMN, rk.synthetic(range(3)), "pgv", [0.2, 0.4, 3.0], trust=False).fragility("uplift")
+    curve.to_dict()["counts"].clear()
+    assert len(curve.counts) == 3

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from ._run import Run
     from ._study import Fragility, Study
 
+#: Least number of records of which fractiles are drawn.
+LEAST_RECORDS = 3
+
 #: |θ|/α beyond which angles are not drawn: a falling block would hide the rocking.
 DRAWN = 1.2
 
@@ -73,13 +76,16 @@ def study(drawn: "Study", ax: "Axes | None" = None) -> "Axes":
     for places in pd.Series(labels).groupby(labels, sort=False).indices.values():
         own = np.asarray(places)[np.argsort(sizes[places])]
         ax.plot(demand[own], sizes[own], lw=0.8, color="0.7", marker=".", ms=3)
-    for share, style in ((16, ":"), (50, "-"), (84, "--")):
-        fractile = np.minimum(stripes[f"peak_{share}"].to_numpy(), right)
+    has_fractiles = len(set(labels)) >= LEAST_RECORDS
+    for share, style in ((16, ":"), (50, "-"), (84, "--")) if has_fractiles else ():
+        fractile = stripes[f"peak_{share}"].to_numpy()
+        fractile = np.where(np.isfinite(fractile), np.minimum(fractile, right), np.nan)
         ax.plot(fractile, stripes[drawn.measure], style, color="C0", lw=1.6, label=f"{share} %")
     ax.axvline(right, color="0.4", lw=0.8)
     ax.annotate("lost", (right, 1.01), xycoords=("data", "axes fraction"), ha="right", fontsize="small")
     ax.set(xlabel="largest |θ| / α", ylabel=drawn.label, xlim=(0, right * 1.02), ylim=(0, None))
-    ax.legend(frameon=False, title="fractile")
+    if has_fractiles:
+        ax.legend(frameon=False, title="fractile")
     return ax
 
 

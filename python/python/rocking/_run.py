@@ -62,7 +62,7 @@ def simulate(
         ``everything``, ``outcome`` (whether and when it overturns: no rows, events, peaks or forces) or ``overturns`` (whether it does).
     trust : bool
         Whether the run is followed by companions, as ``rocking run`` does: ``run.trust`` then says how far it is determined. Without them a run takes
-        microseconds; with them 7 to 30 times as long, on all threads. The run itself is the same. With ``wanted="everything"`` alone.
+        microseconds; with them 7 to 30 times as long on one thread; they run on all. The run itself is the same. With ``wanted="everything"`` alone.
     **arguments
         As of :class:`Scene`.
 
@@ -114,6 +114,8 @@ def trust(
     >>> found.outcome, found.determined, len(found.companions)
     ('stands', True, 9)
     """
+    for name in {"rows", "forces", "wanted", "trust"} & set(arguments):
+        raise TypeError(f"there is no argument `{name}` of rocking.trust: it has no rows and no forces; use rocking.simulate")
     found = simulate(column, motion, vertical=vertical, rows=False, forces=False, trust=True, **arguments).trust
     assert found is not None
     return found
@@ -209,9 +211,9 @@ class Run:
 
     @property
     def summary(self) -> dict[str, Any]:
-        """The content of ``summary.json``, read anew each time."""
+        """The content of ``summary.json``, read anew each time; ``impacts`` is None where only the outcome is asked for."""
         read: dict[str, Any] = json.loads(self._response.summary())
-        return read
+        return {**read, "impacts": self._response.impacts}
 
     @cached_property
     def trust(self) -> Trust | None:

@@ -69,6 +69,9 @@ ARGUMENTS: dict[str, str] = {
     "output_columns": "output.columns",
 }
 
+#: Tables whose keys are settings by themselves: of such a table in ``keys`` each key is set, and the others stay.
+SETTINGS = ("initial", "solver", "output")
+
 #: Keys of a scene that are those of its column.
 OF_COLUMN = ("column", "block", "gravity", "size")
 
@@ -160,6 +163,11 @@ def _blocks(blocks: Any) -> Iterable[Mapping[str, Any]]:
         yield block
 
 
+def _refuse_shape(name: str, sizes: Mapping[str, Any]) -> None:
+    if "shape" in sizes:
+        raise TypeError(f"Column.{name} has its shape; leave `shape` out, or use Column.cut")
+
+
 class Column:
     """A column of blocks, base first, checked when it is made.
 
@@ -201,11 +209,13 @@ class Column:
     @classmethod
     def drums(cls, blocks: int, *, gravity: float | None = None, **sizes: "Unpack[Sizes]") -> "Column":
         """Round drums: :meth:`cut` with ``shape="drum"``; half-widths are radii, a density is in kg/m³."""
+        _refuse_shape("drums", sizes)
         return cls.cut(blocks, shape="drum", gravity=gravity, **sizes)
 
     @classmethod
     def prisms(cls, blocks: int, *, gravity: float | None = None, **sizes: "Unpack[Sizes]") -> "Column":
         """Prisms: :meth:`cut` with ``shape="prism"``; a density is in kg/m³ with ``depth``, in kg/m² without."""
+        _refuse_shape("prisms", sizes)
         return cls.cut(blocks, shape="prism", gravity=gravity, **sizes)
 
     @property
@@ -337,6 +347,8 @@ class Scene:
     @classmethod
     def from_toml(cls, text: str, *, file: str | os.PathLike[str] = WITHOUT_FILE) -> "Scene":
         """Reads the text of a scene file; ``file`` is named in errors, and records are found relative to it."""
+        if not isinstance(text, str):
+            raise TypeError(f"text is of {type(text).__name__}; give the text of a scene, or keys to Scene.from_dict")
         path = os.fspath(file)
         native = _rocking.Scene.from_toml(text, path)
         return cls._of(_rocking.from_toml(text), path, native, text)
@@ -470,7 +482,10 @@ def _dotted(arguments: Mapping[str, Any]) -> Iterable[tuple[str, Any]]:
     for key, value in others.items():
         if not isinstance(key, str):
             raise TypeError(f"the name {key!r} in keys is of {type(key).__name__}; give dotted names, such as \"solver.rtol\"")
-        yield key, value
+        if key in SETTINGS and isinstance(value, Mapping):
+            yield from ((f"{key}.{name}", item) for name, item in value.items())
+        else:
+            yield key, value
 
 
 def _files(motion: Any) -> Iterable[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import os
 import re
@@ -291,6 +292,8 @@ class Study:
             records = [f"run {number}" for number in range(1, len(table) + 1)]
 
         axes = [name for name in names[: names.index("outcome")] if name not in ("index", "scale", self.measure)] if "outcome" in names else []
+        # The numbers of rows that pandas has written into a file without a name.
+        axes = [name for name in axes if not name.startswith("Unnamed: ")]
         for name in axes:
             count = 1 if name in of_records else table[name].nunique(dropna=False)
             # A value of its own for each record is a property of the record, such as its PGA.
@@ -461,7 +464,7 @@ class Fragility:
 
     def to_dict(self) -> dict[str, Any]:
         """All of it, as JSON has it."""
-        return self._found
+        return copy.deepcopy(self._found)
 
     def __repr__(self) -> str:
         return f"<Fragility of {self.state} over {self.measure}: {self.statements[0]}>"
