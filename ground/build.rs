@@ -1,4 +1,4 @@
-//! Says whether real records stand beside the project: tests that read them are ignored, visibly, where they do not.
+//! Sets `has_shared` if real records stand beside the project. Without it, tests that read them are ignored, visibly.
 
 fn main() {
     println!("cargo::rustc-check-cfg=cfg(has_shared)");

@@ -97,7 +97,7 @@ pub struct Event {
     /// The interface whose state changed, from 1; the lowest where several did.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub interface: Option<usize>,
-    /// All interfaces that closed in the same instant, from 1, where there are several.
+    /// All interfaces that changed in the same instant, from 1, where there are several: that closed, opened, slid or flew.
     #[serde(default, skip_serializing_if = "is_empty")]
     pub interfaces: PerBlock<usize>,
     /// Pattern before.
@@ -272,7 +272,7 @@ pub struct Work {
     pub force_calls: usize,
     /// Whether generated equations had the terms of vertical ground motion.
     pub with_vertical: bool,
-    /// Distinct patterns whose scene constants were computed.
+    /// Distinct patterns that the run entered.
     pub modes_entered: usize,
     /// Smooth phases: how often the integrator was entered.
     pub phases: usize,

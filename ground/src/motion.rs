@@ -293,7 +293,8 @@ impl Motion {
         })
     }
 
-    /// The result of a function of the parameters. They come in two slices, without allocation: scenes of a sweep are checked a million times.
+    /// Calls a function with all parameters and returns its result. The parameters are in two slices so that nothing is allocated: scenes of a sweep are
+    /// checked a million times.
     fn with_parameters<R>(&self, of: impl FnOnce([&[Parameter]; 2]) -> R) -> R {
         const ANY: f64 = f64::NEG_INFINITY;
         let wave = |amplitude: f64, omega: f64, start: f64| {

@@ -26,3 +26,19 @@ pub struct Decision {
     /// The same without restitution; empty where nothing rebounds, and where `impulses` is.
     pub plastic_impulses: PerBlock<ContactForce>,
 }
+
+impl Decision {
+    /// A decision for this pattern without impulses, and without a separation.
+    pub fn without_impulses(pattern: Pattern, omega: PerBlock<f64>) -> Decision {
+        Decision {
+            pattern,
+            omega,
+            separation: false,
+            is_critical: false,
+            is_without_restitution: false,
+            energy_lost: 0.0,
+            impulses: PerBlock::new(),
+            plastic_impulses: PerBlock::new(),
+        }
+    }
+}

@@ -107,11 +107,9 @@ fn impact_at<S: Size>(
     };
     let mut candidate = Candidate { mechanism, answer: forced };
     let is_motion_admissible = problem.solve(&mut candidate)? == Found::Admissible;
+    let (pattern, omega) = (Pattern::from_states(&candidate.mechanism.states), PerBlock::from_slice(&rates));
     Ok(Decision {
-        pattern: Pattern::from_states(&candidate.mechanism.states),
-        omega: PerBlock::from_slice(&rates),
         separation: !is_impact_admissible || !is_motion_admissible,
-        is_critical: false,
         is_without_restitution,
         energy_lost,
         plastic_impulses: match impulses.is_some() && rebounds {
@@ -119,6 +117,7 @@ fn impact_at<S: Size>(
             false => PerBlock::new(),
         },
         impulses: impulses.map_or_else(PerBlock::new, |list| PerBlock::from_slice(&list)),
+        ..Decision::without_impulses(pattern, omega)
     })
 }
 
@@ -146,15 +145,12 @@ pub(crate) fn stick(
     let posture = &mechanism.posture;
     let after = at_event.velocities(posture, &answer.angular);
     let energy_after = posture.kinetic_energy(&after.linear, &after.angular);
+    let (pattern, omega) = (Pattern::from_states(&mechanism.states), PerBlock::from_slice(&answer.angular));
     Ok(Decision {
-        pattern: Pattern::from_states(&mechanism.states),
-        omega: PerBlock::from_slice(&answer.angular),
         separation: true,
-        is_critical: false,
-        is_without_restitution: false,
         energy_lost: share_lost(energy_before, energy_after),
         impulses: PerBlock::from_slice(&answer.resultants),
-        plastic_impulses: PerBlock::new(),
+        ..Decision::without_impulses(pattern, omega)
     })
 }
 

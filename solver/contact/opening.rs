@@ -13,8 +13,9 @@ use rocking_codegen::pattern::{Interface, Pattern};
 
 /// Finds the pattern that forces require (docs/book/model.md, section 4) at angles `theta` and rates `omega`. Every interface that is closed, or
 /// open with zero gap and zero gap rate, may change its state. `released` lists interfaces (from zero) whose resultants have just
-/// reached a corner, each with the side of that corner: they open, unless they accelerate shut by more than a tolerance; then they are searched like the rest. The side is
-/// right where the moment of the contact force is negative, left where it is positive. Without such interfaces, give `&[]`: the forces alone decide.
+/// reached a corner, each with the side of that corner: they open, unless they accelerate shut by more than a tolerance; then they are searched like the
+/// rest. The side is right where the moment of the contact force is negative, left where it is positive. Without such interfaces, give `&[]`: the forces
+/// alone decide.
 ///
 /// # Errors
 /// [`SingularMass`]
@@ -88,14 +89,5 @@ fn open_at<S: Size>(
     let is_released = |interface: usize| released.iter().any(|(other, _)| *other == interface);
     let mut others = chosen(&free).filter(|&interface| !is_released(interface));
     let is_critical = !released.is_empty() && others.any(|i| candidate.is_critical(at_event.column, i, tolerance));
-    Ok(Decision {
-        pattern,
-        omega,
-        separation,
-        is_critical,
-        is_without_restitution: false,
-        energy_lost: 0.0,
-        impulses: PerBlock::new(),
-        plastic_impulses: PerBlock::new(),
-    })
+    Ok(Decision { separation, is_critical, ..Decision::without_impulses(pattern, omega) })
 }

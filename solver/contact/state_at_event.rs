@@ -17,7 +17,7 @@ const NOTHING: f64 = 1e-40;
 
 /// Acceleration by which a released interface may be driven back and still open, as a share of the largest one, at least that of a falling
 /// column: the instant of release is known to the integration's tolerance only. An interface that is driven back faster is examined like any other.
-pub(super) const RELEASE_TOLERANCE: f64 = 1e-6;
+const RELEASE_TOLERANCE: f64 = 1e-6;
 
 /// How one candidate pattern answers a contact problem.
 pub(super) struct Answer<S: Size> {

@@ -26,10 +26,10 @@ impl Ground {
 }
 
 /// Contact force at an interface, on the stack above (docs/book/model.md, section 4). In a part of a run in which blocks slide or fly, the axes are those of
-/// the face that carries the contact, and the moment of a corner is about its point.
+/// the face that carries the contact, and the moment of a corner is about its point. In an impact these are impulses, in `N s` and `N m s`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactForce {
-    /// Normal part `[N]`, compression positive, in the axes of the lower block.
+    /// Normal part `[N]`, compression positive.
     pub normal: f64,
     /// Tangential part `[N]`, positive to the right.
     pub tangential: f64,

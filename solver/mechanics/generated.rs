@@ -379,12 +379,12 @@ fn pivot(column: &Column, pattern: &Pattern, interface: usize) -> f64 {
     column.pivot_offset(interface, pattern.0[interface])
 }
 
-/// The aligned rectangles of a column as the generated equations read them.
+/// The constants of a column with aligned contacts, as the generated equations read them.
 ///
 /// # Panics
-/// If a block is tapered, displaced, or has its centroid off mid-height: equations of such columns have more constants.
+/// If a contact is off the middle of one of its faces, or a centroid is off mid-height: equations of such columns have more constants.
 pub fn geometry(column: &Column, pattern: &Pattern) -> Geometry<f64> {
-    assert!(column.is_plain(), "the column is none of aligned rectangles");
+    assert!(column.is_plain(), "a contact is off the middle of a face, or a centroid off mid-height");
     let blocks = column.blocks();
     Geometry {
         gravity: column.gravity(),

@@ -24,7 +24,7 @@ const LONGEST_WAY: f64 = 0.6;
 const SHARE_OF_ROUNDING: f64 = 1e-9;
 
 impl Harmonics {
-    /// Adds a wave, a function of the angle, times a factor for each corner to the margins.
+    /// Adds a function of the angle to the margin of each corner, times the factor of that corner.
     #[inline(always)]
     pub fn add(&mut self, factors: f64x2, wave: &Wave) {
         let [mean, first @ .., cos, sin] = wave.map(|part| factors * f64x2::splat(part));
@@ -35,7 +35,7 @@ impl Harmonics {
     }
 
     /// The same margins with the angle counted from a later start, by an angle with this sine and cosine.
-    pub fn from(&self, (sin, cos): (f64, f64)) -> Harmonics {
+    pub fn counted_from(&self, (sin, cos): (f64, f64)) -> Harmonics {
         let turned = |[of_cos, of_sin]: [f64x2; 2], sin: f64, cos: f64| {
             let (sin, cos) = (f64x2::splat(sin), f64x2::splat(cos));
             [of_cos * cos + of_sin * sin, of_sin * cos - of_cos * sin]
@@ -70,7 +70,7 @@ impl Harmonics {
         let pieces = (way.abs() / LONGEST_WAY).ceil();
         let (own, mut piece) = (way / pieces, 0.0);
         while piece < pieces {
-            let here = if piece > 0.0 { self.from(libm::sincos(piece * own)) } else { *self };
+            let here = if piece > 0.0 { self.counted_from(libm::sincos(piece * own)) } else { *self };
             let least = here.least(own).to_array();
             let doubtful = (0..2).filter(|side| least[*side] <= 0.0);
             let root = |side: usize| {
@@ -127,7 +127,7 @@ mod tests {
     #[test]
     fn from_an_angle_on_they_are_the_same() {
         for psi in [-2.5, -0.4, 0.0, 0.3, 1.7] {
-            let found = harmonics().from(libm::sincos(psi)).start().to_array();
+            let found = harmonics().counted_from(libm::sincos(psi)).start().to_array();
             assert!((found[0] - right(psi)).abs() < 4e-15 && (found[1] - right(psi) - 10.0).abs() < 8e-15, "{psi}");
         }
     }
@@ -148,6 +148,6 @@ mod tests {
         }
         assert_eq!(harmonics().opening(0.9 * above), Ok(None));
         assert_eq!(harmonics().opening(-0.5), Ok(None), "the other way it stays closed");
-        assert_eq!(harmonics().from(libm::sincos(above)).opening(0.1), Err(Critical));
+        assert_eq!(harmonics().counted_from(libm::sincos(above)).opening(0.1), Err(Critical));
     }
 }

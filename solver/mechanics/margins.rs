@@ -183,7 +183,7 @@ impl Margins {
             margins.add(-cross, &waves.square_of_rate);
             margins.add(dot + corners.inertia, &waves.acceleration);
         }
-        margins.from(waves.start)
+        margins.counted_from(waves.start)
     }
 
     /// Taylor terms of both margins at `reach`, of all orders below that of the series; `None` as soon as `is_enough` of an order and its term.
@@ -227,7 +227,7 @@ impl Margins {
         sum
     }
 
-    /// `[A, B]` of one order, from second derivatives `[c̈, s̈]` of all links.
+    /// Coefficients `[A, B]` of the margins (see the head of this file), of one order of the series, from second derivatives `[c̈, s̈]` of all links.
     #[inline(always)]
     fn weights(&self, corners: &Corners, circle: impl Fn(usize) -> Vec2, ground: Vec2) -> [f64x2; 2] {
         let turned = |[u, v]: Vec2, link: usize| {
@@ -463,7 +463,7 @@ mod tests {
                         series.contact_forces(0.0, &state, Interfaces::Closed, &mut forces);
                         let ContactForce { normal, moment, .. } = forces[interface];
                         let lever = column.contact_half_width(interface) * normal;
-                        let found = harmonics.from(libm::sincos(way)).start().to_array();
+                        let found = harmonics.counted_from(libm::sincos(way)).start().to_array();
                         for (found, expected) in found.into_iter().zip([lever + moment, lever - moment]) {
                             assert!(
                                 (found - expected).abs() < 1e-12 * lever,

@@ -88,7 +88,8 @@ pub enum IntegrateError {
         /// Value given.
         value: f64,
     },
-    /// A tolerance or a step is not a finite number above zero, `rtol` is below [`TIGHTEST_RTOL`], a tolerance above [`LOOSEST_TOLERANCE`], or the step is so small that it hardly advances the time.
+    /// A tolerance or a step is not a finite number above zero, `rtol` is below [`TIGHTEST_RTOL`], a tolerance above [`LOOSEST_TOLERANCE`], or the step is
+    /// so small that it hardly advances the time.
     #[error(
         "{name} = {value:e} is out of range; give a finite number above zero, for rtol at least {TIGHTEST_RTOL:e}, for tolerances at most {LOOSEST_TOLERANCE}, for step at least {SHORTEST_STEP:e} of the time"
     )]

@@ -35,7 +35,7 @@ pub struct SlidingReport {
     pub energy_change: f64,
     /// Times at which several motions were admissible `[s]`.
     pub ambiguous: Vec<f64>,
-    /// Times at which no acceleration was admissible `[s]`.
+    /// Times at which no acceleration was admissible, or forces grew without bound `[s]`.
     pub jammed: Vec<f64>,
 }
 
@@ -100,7 +100,7 @@ impl SlidingReport {
         let times = |list: &[f64]| list.first().map_or(0.0, |first| *first);
         if !self.ambiguous.is_empty() {
             warnings.push(format!(
-                "at {} instant(s), the first at t = {:.4} s, friction admits several motions: the one with the fewest changes was taken",
+                "at {} instant(s), the first at t = {:.4} s, friction admits several motions: the one with the fewest changes was taken, in an impact the one with the least energy",
                 self.ambiguous.len(),
                 times(&self.ambiguous)
             ));

@@ -34,7 +34,7 @@ pub enum SolveError {
     Stalled {
         /// `[s]`
         time: f64,
-        /// Number of events in this instant after the first.
+        /// Number of events in this instant.
         events: usize,
         /// The last pattern.
         pattern: String,

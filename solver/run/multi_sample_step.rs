@@ -276,7 +276,8 @@ impl Walk<'_> {
 
 /// What the gap does in a step.
 enum Touch {
-    /// It does not close: it stays open, or within rounding of zero from the start on. The number is the peak so far or the largest magnitude of the angle in the step, whichever is larger `[rad]`.
+    /// It does not close: it stays open, or within rounding of zero from the start on. The number is the larger of the peak so far and the largest magnitude
+    /// of the angle in the step `[rad]`.
     Clears(f64),
     /// It closes at a share of the step, the first number. The second one is the peak as above, up to there `[rad]`.
     Lands(f64, f64),

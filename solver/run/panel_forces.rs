@@ -12,7 +12,7 @@ pub(crate) struct PanelForces {
 }
 
 impl PanelForces {
-    /// From the contact forces at start, middle and end, which are extremes where the forces are monotonic between.
+    /// The panel with these contact forces at its start, middle and end. If the forces are monotonic, their extremes are at the two ends.
     #[inline(always)]
     pub fn of(forces: [ContactForce; 3], is_monotonic: bool) -> PanelForces {
         let (tangential, normal) = (forces.map(|force| force.tangential), forces.map(|force| force.normal));

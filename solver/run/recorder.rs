@@ -61,7 +61,7 @@ impl Recorder {
         recorder
     }
 
-    /// Leaves out the account of validity: a run with friction has none.
+    /// Leaves out the account of what contacts need: a part of a run in which blocks slide elsewhere has none.
     pub fn without_validity(mut self) -> Recorder {
         self.needs = None;
         self

@@ -52,7 +52,7 @@ pub(crate) struct ContactMemory {
     pub hold: Hold,
     /// Times of the last two events `[s]`, the latest last.
     pub last_events: [f64; 2],
-    /// Number of events in this instant after the first. Transitions that are not counted leave it as it is.
+    /// Number of counted events in the instant of the last event.
     pub events_at_once: usize,
 }
 

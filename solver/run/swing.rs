@@ -235,7 +235,7 @@ impl SwingStretch {
         self.course.swing.turns() && self.end[1] * self.course.swing.start_rate() < 0.0
     }
 
-    /// Largest magnitude of the angle in the swing `[rad]`; may be too small if below `known`.
+    /// Largest magnitude of the angle at crest and end of the swing `[rad]`; may be too small if below `known`.
     pub fn peak(&self, known: f64) -> f64 {
         let at_end = self.course.state(self.end)[0].abs();
         if !(self.has_turned() && self.course.height() > known) {

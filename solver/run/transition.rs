@@ -11,8 +11,8 @@ use crate::numerics::per_block::{PerBlock, Size, for_size};
 use crate::response::EventKind;
 use rocking_codegen::pattern::{Interface, Pattern};
 
-/// Events in one instant, per block and one more, that count as a cycle: [`break_cycle`] acts at this number, at one and a half of it, and beyond twice of it. A
-/// lower number would cut short instants at which several interfaces are critical.
+/// Events in one instant, per block and one more, beyond which they count as a cycle: [`break_cycle`] acts beyond this number, one and a half of it, and
+/// twice it. A lower number would cut short instants at which several interfaces are critical.
 const EVENTS_AT_ONCE: usize = 8;
 
 /// Gaps of given angles below this, relative to the angles, are rounding (0.1 + 0.2 against 0.3) and count as closed.
@@ -43,23 +43,19 @@ impl Transition {
         (after.t, after.segment, after.pace) = (before.t, before.segment, before.pace);
         for_size!(before.theta.len(), size => self.decide(size, before, after));
         let ContactMemory { hold, last_events, events_at_once, .. } = before.contact;
-        let is_same_instant = last_events[1] == before.t;
+        let at_once_before = if last_events[1] == before.t { events_at_once } else { 0 };
         after.contact.hold = if self.decision.separation { hold.after_separation(before.t) } else { hold };
         after.contact.last_events = if self.is_event { [last_events[1], before.t] } else { last_events };
-        after.contact.events_at_once = match (self.is_counted, is_same_instant) {
-            (true, true) => events_at_once + 1,
-            (true, false) => 0,
-            (false, _) => events_at_once,
-        };
+        after.contact.events_at_once = at_once_before + usize::from(self.is_counted);
         if !(after.contact.released.is_empty() && self.released.is_empty()) {
             after.contact.released.clone_from(&self.released);
         }
         after
     }
 
-    /// Whether the events of one instant may go in a cycle: with this one, which led to `after`, they have reached the number allowed.
+    /// Whether the events of one instant may go in a cycle: with this one, which led to `after`, they are more than the number allowed.
     pub fn may_cycle(&self, after: &State) -> bool {
-        self.is_counted && after.contact.events_at_once >= most_at_once(after)
+        self.is_counted && after.contact.events_at_once > most_at_once(after)
     }
 
     /// Writes pattern, angles and rates of `x⁺` of a column of this size.
@@ -157,20 +153,10 @@ fn impact(problem: &Problem, before: &State, closing: &[usize]) -> Result<Transi
 fn withdraw(before: &State, closing: &[usize]) -> Transition {
     let mut pattern = before.pattern.clone();
     closing.iter().for_each(|&interface| pattern.0[interface] = Interface::Closed);
-    let omega = before.omega.clone();
     let stays_open = |(interface, _): &&(usize, Interface)| !closing.contains(interface);
     let released = before.contact.released.iter().filter(stays_open).copied().collect();
     Transition {
-        decision: Decision {
-            pattern,
-            omega,
-            separation: false,
-            is_critical: false,
-            is_without_restitution: false,
-            energy_lost: 0.0,
-            impulses: PerBlock::new(),
-            plastic_impulses: PerBlock::new(),
-        },
+        decision: Decision::without_impulses(pattern, before.omega.clone()),
         kind: EventKind::Impact,
         is_event: true,
         interfaces: PerBlock::from_slice(closing),
@@ -234,14 +220,14 @@ fn jump(problem: &Problem, before: &State, kind: EventKind) -> Result<Transition
     Ok(Transition { decision, kind, is_event, interfaces, released, is_counted: false })
 }
 
-/// Number of events in one instant that suggests a cycle.
+/// Number of events in one instant, beyond which they may go in a cycle: [`EVENTS_AT_ONCE`] per block and one more.
 fn most_at_once(state: &State) -> usize {
     EVENTS_AT_ONCE * (state.theta.len() + 1)
 }
 
-/// The transition that breaks a cycle of events in one instant: open interfaces close, momentum conserved, and a separation is counted. When the number of
-/// events reaches [`EVENTS_AT_ONCE`] per block and one more, those close that have neither gap nor rate; at one and a half of it, all without a gap. `None` at any
-/// other number.
+/// The transition that breaks a cycle of events in one instant: open interfaces close, momentum conserved, and a separation is counted. The first event
+/// beyond the number allowed closes those that have neither gap nor rate; the first beyond one and a half of it closes all without a gap. `None` after any
+/// other event.
 ///
 /// # Errors
 /// [`SolveError::Stalled`] beyond twice the limit.
@@ -254,9 +240,9 @@ pub(crate) fn break_cycle(problem: &Problem, state: &State) -> Result<Option<Tra
     let (theta, omega) = (&state.theta, &state.omega);
     let (gaps, rates) = (Gaps::of(theta), Gaps::of(omega));
     let is_still: &dyn Fn(usize) -> bool = match events {
-        events if events == most => &|interface| gaps.is_rounding(interface) && rates.is_rounding(interface),
+        events if events == most + 1 => &|interface| gaps.is_rounding(interface) && rates.is_rounding(interface),
         // Interfaces with rates slightly above rounding may go in cycles as well: an interface without a gap is closed whatever its rate.
-        events if events == most + most / 2 => &|interface| gaps.is_rounding(interface),
+        events if events == most + most / 2 + 1 => &|interface| gaps.is_rounding(interface),
         _ => return Ok(None),
     };
     let is_closing = |interface: &usize| state.pattern.0[*interface].is_open() && is_still(*interface);
@@ -287,8 +273,8 @@ fn singular(state: &State) -> SolveError {
     SolveError::SingularMass { time: state.t, pattern: state.pattern.to_string() }
 }
 
-/// Gives the blocks of an interface one angle if it is closed or its gap is rounding, and one rate if it is closed or its gap and rate are. All
-/// interfaces are examined before any block is moved: a block that is snapped to the one below must not open a gap to the one above.
+/// Gives the two blocks of an interface one angle if the interface is closed or has no gap, and one rate if it is closed or has neither gap nor rate, to
+/// rounding. All interfaces are examined before any block is moved: a block that is snapped to the one below must not open a gap to the one above.
 #[inline(always)]
 fn snap(size: impl Size, states: &[Interface], theta: &mut [f64], omega: &mut [f64]) {
     let (gaps, rates) = (Gaps::of(theta), Gaps::of(omega));
@@ -297,12 +283,12 @@ fn snap(size: impl Size, states: &[Interface], theta: &mut [f64], omega: &mut [f
         let is_closed = !states[interface].is_open();
         [is_closed || is_gapless, is_closed || (is_gapless && rates.is_rounding(interface))]
     });
-    for (interface, &[is_gapless, is_motionless]) in joined.iter().enumerate() {
+    for (interface, &[joins_angles, joins_rates]) in joined.iter().enumerate() {
         let below = interface.checked_sub(1);
-        if is_gapless {
+        if joins_angles {
             theta[interface] = below.map_or(0.0, |below| theta[below]);
         }
-        if is_motionless {
+        if joins_rates {
             omega[interface] = below.map_or(0.0, |below| omega[below]);
         }
     }

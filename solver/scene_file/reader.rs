@@ -145,14 +145,10 @@ fn friction(root: &mut Table) -> Result<Option<Friction>, Wrong> {
     let Some(mut table) = root.table("friction")? else { return Ok(None) };
     let fixed = table.number_or_numbers("static")?;
     let kinetic = table.number_or_numbers("kinetic")?;
-    let friction = match (fixed, kinetic) {
-        (Some(fixed), kinetic) => Friction::new(fixed.clone(), kinetic.unwrap_or(fixed)),
-        (None, _) => {
-            return Err(table.missing("static", "give the coefficient of contacts that stick, or write friction = 0.7"));
-        }
-    };
     table.close()?;
-    Ok(Some(friction))
+    let remedy = "give the coefficient of contacts that stick, or write friction = 0.7";
+    let fixed = fixed.ok_or_else(|| table.missing("static", remedy))?;
+    Ok(Some(Friction::new(fixed.clone(), kinetic.unwrap_or(fixed))))
 }
 
 /// The state at `t = 0`, and the column as it stands then.

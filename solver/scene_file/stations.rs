@@ -67,8 +67,8 @@ impl Component {
 /// Extensions of files without accelerations: velocity and displacement, which PEER gives beside them, and documents.
 const NO_ACCELERATION: [&str; 6] = ["vt2", "dt2", "md", "pdf", "html", "htm"];
 
-/// Names of the files of a folder, sorted. A link that leads nowhere counts: a record that is missing is refused where it is read. Hidden files, files whose names begin with `_` (lists and readmes of PEER), files with velocity or
-/// displacement, documents and `README` files are left out.
+/// Names of the files of a folder, sorted. A link that leads nowhere counts: a record that is missing is refused where it is read. Left out are hidden
+/// files, files whose names begin with `_` (lists and readmes of PEER), files with velocity or displacement, documents and `README` files.
 pub(crate) fn files_in(folder: &Path) -> std::io::Result<Vec<String>> {
     // The folder of a bare name is the one that the program runs in.
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };

@@ -358,9 +358,10 @@ impl Table {
 
     /// A finite number, or a list of them.
     pub fn number_or_numbers(&mut self, key: &'static str) -> Result<Option<Vec<f64>>, Wrong> {
-        match self.entry(key) {
-            Some(Entry { value: Value::Number(_), .. }) => Ok(self.number(key)?.map(|(value, _)| vec![value])),
-            _ => self.numbers(key),
+        match self.entry(key).map(|entry| &entry.value) {
+            None | Some(Value::Array(_)) => self.numbers(key),
+            Some(Value::Number(_)) => Ok(self.number(key)?.map(|(value, _)| vec![value])),
+            Some(other) => Err(self.expected(key, other, "a number, or a list of numbers")),
         }
     }
 

@@ -112,7 +112,7 @@ pub struct IdaOutcome {
     pub peaks: Vec<f64>,
     /// Slide of each interface at the end `[m]`; empty without friction.
     pub residual_slides: Vec<f64>,
-    /// Time up to which the angles are known `[s]`, in a run whose verdict is not determined; otherwise `None`.
+    /// Time up to which the angles are known `[s]`, in a run whose companions do not determine its verdict ([`crate::trust`]); otherwise `None`.
     /// Impacts, first uplift, peaks, and the gap that follows from angles are those up to this time.
     pub horizon: Option<f64>,
 }

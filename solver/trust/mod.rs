@@ -11,9 +11,9 @@
 //!
 //! The *horizon* is the time up to which the run agrees, to [`AGREEMENT`], with the companions that differ by the tolerance or by 1e-9. Up to then
 //! the scene determines the angles, and the solver finds them. A verdict is *determined* if it is certain within the horizon and all companions have
-//! the same one, those with changes of 1e-6 too: four of these, or 28 where they have parted from the run before its verdict is certain. Beyond the horizon neither angles nor verdict are known: slender stacks in long shaking are chaotic,
-//! and no tolerance helps. `undetermined` has another meaning: a run with friction ends so where no motion follows from the laws of contact
-//! ([`StopReason::Undetermined`]).
+//! the same one, those with changes of 1e-6 too: four of these, or 28 where they have parted from the run before its verdict is certain. Beyond the
+//! horizon neither angles nor verdict are known: slender stacks in long shaking are chaotic, and no tolerance helps. `undetermined` has another
+//! meaning: a run with friction ends so where no motion follows from the laws of contact ([`StopReason::Undetermined`]).
 //!
 //! The run itself is not touched: its response is that of [`crate::simulate`], bit for bit.
 
@@ -289,7 +289,7 @@ impl Trust {
 
     /// Whether the verdict of the exact inputs is certain: if it is not determined, that is for changes of 1e-6.
     fn is_open_by_inputs(&self) -> bool {
-        self.horizon >= self.certain_at
+        self.verdict != Verdict::MayOverturn && self.horizon >= self.certain_at
     }
 
     /// Whether all companions agree to the end of the run.

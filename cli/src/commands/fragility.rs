@@ -202,7 +202,7 @@ struct Columns {
     has_index: bool,
     /// Columns whose cells name the record of a run.
     records: Vec<usize>,
-    /// The level of the measure.
+    /// The column with the level of the measure.
     level: usize,
     /// Axes of a sweep that are neither the record nor the measure.
     others: Vec<usize>,

@@ -77,7 +77,10 @@ fn judge_sliding(results: &Results, report: &SlidingReport) -> Verdict {
         None => {}
     }
     for (instants, what) in [
-        (&report.ambiguous, "friction admits several motions, and the one with the fewest changes was taken"),
+        (
+            &report.ambiguous,
+            "friction admits several motions, and the one with the fewest changes was taken, in an impact the one with the least energy",
+        ),
         (&report.jammed, "friction admits no smooth motion: the blocks jam, and strike"),
     ] {
         if !instants.is_empty() {

@@ -1,8 +1,8 @@
 //! Sums of scene quantities in the form with the fewest characters on paper, for readers.
 //!
-//! Three equal forms are compared: the sum itself, and two others. One takes out the factor that most terms share, again and again. The other first groups by a family of symbols in
-//! which the sum is linear (the masses: members with the same coefficient stand together, `(m_2 + m_3) c`), and then takes factors out of
-//! each coefficient. Forms with the fewest operations are in [`crate::optimise`].
+//! Three equal forms are compared: the sum itself, and two others. One takes out the factor that most terms share, again and again. The other first groups
+//! by a family of symbols in which the sum is linear (the masses: members with the same coefficient stand together, `(m_2 + m_3) c`), and then takes factors
+//! out of each coefficient. Forms with the fewest operations are in [`crate::optimise`].
 
 use super::arena::{Arena, Expr, Node};
 use super::rational::Rational;

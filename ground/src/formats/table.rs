@@ -453,9 +453,9 @@ fn acceleration_column(rows: &Rows, options: &TextOptions) -> Result<usize, Reco
     }
 }
 
-/// The column of the times: the nearest one with such a name before the accelerations, else the first one. In a table without names, the nearest column before the accelerations that has equal
-/// steps, since numbers of rows or other components may stand there too, else the first column if it rises or falls throughout. If `dt` is given, numbers of
-/// rows are no times. `None` if there is no such column, or if it is the chosen one.
+/// The column of the times: the nearest one with such a name before the accelerations, else the first one. In a table without names, the nearest column
+/// before the accelerations that has equal steps, since numbers of rows or other components may stand there too, else the first column if it rises or falls
+/// throughout. If `dt` is given, numbers of rows are no times. `None` if there is no such column, or if it is the chosen one.
 fn time_column(rows: &Rows, chosen: usize, options: &TextOptions) -> Option<usize> {
     let headings = &rows.headings.1;
     if !headings.is_empty() {

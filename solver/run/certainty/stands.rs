@@ -1,4 +1,5 @@
-//! The proof that a column does not overturn any more, for runs that request nothing but the outcome.
+//! The proof that a column does not overturn any more: it ends runs that request nothing but the outcome, and says of others whether they may overturn after
+//! their end.
 //!
 //! # It stands
 //!

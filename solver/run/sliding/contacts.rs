@@ -30,8 +30,8 @@ pub struct Resolution {
     pub angle: f64,
     /// Relative speed of contacts that stay `[m/s]`.
     pub speed: f64,
-    /// Speed of a slide that has no direction `[m/s]`.
-    pub rounding: f64,
+    /// Speed below which the direction of a slide is rounding `[m/s]`.
+    pub undirected_speed: f64,
     /// Relative rate of faces that stay on each other `[rad/s]`.
     pub rate: f64,
     /// Angle of the lowest hop that is followed, the scene's `stick_angle` `[rad]`.
@@ -43,8 +43,8 @@ impl Resolution {
         let size = column.size();
         let fall = (size * column.gravity()).sqrt();
         let speed = SPEED_SHARE * fall;
-        let (gap, angle, rounding) = (GAP_SHARE * size, GAP_SHARE, ROUNDING_SHARE * fall);
-        Resolution { size, gap, angle, speed, rounding, rate: speed / size, lowest_hop }
+        let (gap, angle, undirected_speed) = (GAP_SHARE * size, GAP_SHARE, ROUNDING_SHARE * fall);
+        Resolution { size, gap, angle, speed, undirected_speed, rate: speed / size, lowest_hop }
     }
 }
 

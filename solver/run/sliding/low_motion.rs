@@ -1,6 +1,5 @@
 //! Hops and slides that are too low to be followed: they end, momentum conserved (docs/book/model.md, section 18).
 
-use super::smooth::FACTOR_OF_JAM;
 use super::transition::{PendingTransition, Stilled};
 use crate::friction::contact_problem::half_length;
 use crate::friction::joint::{Joint, Slip};
@@ -8,14 +7,17 @@ use crate::friction::search::{Solution, acceleration_scale};
 use crate::mechanics::kinematics::relative;
 use crate::numerics::per_block::PerBlock;
 
+/// Largest acceleration from which the end of a hop or a slide is estimated, as a multiple of what weight, ground and rates account for. Blocks about to jam
+/// have larger ones, which stop motions of any speed in no time: by impulses, not by the end of a hop.
+const LARGEST_ACCELERATION: f64 = 1e6;
+
 impl PendingTransition<'_> {
     /// The states in which hops and slides that would come back before they exceed the resolution are stilled; `None` if none is new. All hops and
     /// slides of this instant are stilled together: one at a time, each would pass its momentum on to the others.
     pub(super) fn too_low(&self, solution: &Solution, stilled: &mut Stilled) -> Option<PerBlock<Joint>> {
         let least = self.resolution.lowest_hop;
         let ground = self.problem.ground_at(self.segment, self.t);
-        // Larger accelerations are those of blocks about to jam, which stop motions of any speed in no time: by impulses, not by the end of a hop.
-        let most = FACTOR_OF_JAM * acceleration_scale(self.column(), &self.now, ground);
+        let most = LARGEST_ACCELERATION * acceleration_scale(self.column(), &self.now, ground);
         let returns = |rate: f64, change: f64, least: f64, most: f64| {
             rate != 0.0 && rate * change < 0.0 && rate * rate < 2.0 * change.abs().min(most) * least
         };

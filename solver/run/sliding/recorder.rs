@@ -51,7 +51,7 @@ pub struct Node {
     pub weight: f64,
     /// `Σ m v` relative to the ground `[kg m/s]`.
     pub momentum: Vec2,
-    /// Contact forces by interface, in the axes of the faces that carry the contacts; empty if the equations of the states are singular.
+    /// Contact forces by interface, in the axes of the faces that carry the contacts; zero if the equations of the states are singular.
     pub contacts: PerBlock<ContactForce>,
     /// Rates of the slides, by interface `[m/s]`.
     pub slide_rates: PerBlock<f64>,
@@ -71,7 +71,7 @@ pub struct SlidingRecorder<'p> {
     /// Normal force above which a contact has a friction demand, per interface `[N]`.
     least_normal_force: PerBlock<f64>,
     time_in_mode: BTreeMap<String, f64>,
-    /// Whether a part in which everything sticks ran on generic equations because this build has no generated ones.
+    /// [`Response::used_generic`] of some part in which everything sticks.
     used_generic: bool,
     report: SlidingReport,
     /// Energy at the start, relative to the ground `[J]`.

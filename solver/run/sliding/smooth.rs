@@ -17,10 +17,7 @@ use crate::scene::DynamicsSource;
 use rocking_ground::Segment;
 use std::cell::OnceCell;
 
-/// Forces and accelerations beyond which a motion jams, as multiples of what weight, ground and rates account for.
-pub const FACTOR_OF_JAM: f64 = 1e6;
-
-/// Forces beyond this multiple of the same count as a jam where no step can be taken. Rounding ends steps that follow forces to infinity early, in one
+/// Forces beyond this multiple of what weight, ground and rates account for are a jam where no step can be taken. Rounding ends steps that follow forces to infinity early, in one
 /// column of unequal blocks at 560. If this were smaller, steps that fail for another reason would be taken for a jam.
 const FACTOR_WITHOUT_STEP: f64 = 1e2;
 
@@ -187,10 +184,11 @@ impl System for Smooth<'_> {
         let dof = self.coordinates.len();
         slope[..dof].copy_from_slice(&x[dof..]);
         let ground = Ground::at(self.segment, t, self.gravity);
-        self.calls += 1;
         if let Some(generated) = self.generated() {
             let (values, rates) = x.split_at(dof);
-            return generated.accelerations(values, rates, ground, &mut slope[dof..]);
+            generated.accelerations(values, rates, ground, &mut slope[dof..]);
+            self.calls += 1;
+            return;
         }
         let now = self.configuration(x);
         match self.solved(t, &now, &Chain::new(self.column, &now)) {

@@ -343,8 +343,8 @@ impl<'p> PendingTransition<'p> {
             touch = self.touching();
         }
         self.join_faces(&touch);
-        let rounding = self.resolution.rounding;
-        self.now.slide_rate.iter_mut().filter(|rate| rate.abs() <= rounding).for_each(|rate| *rate = 0.0);
+        let undirected_speed = self.resolution.undirected_speed;
+        self.now.slide_rate.iter_mut().filter(|rate| rate.abs() <= undirected_speed).for_each(|rate| *rate = 0.0);
         touch
     }
 

@@ -25,7 +25,7 @@ const NEAR_START: f64 = 1e-4;
 /// Place in a step at which a guard that is not above zero at the start must be above zero; otherwise its zero is at the start.
 const RISEN_AT: f64 = 0.03;
 
-/// Rounds in which a root of a polynomial is refined on the forces themselves: each squares the error.
+/// Rounds in which a root of a polynomial is refined on the forces themselves, with the slope of the polynomial.
 const REFINEMENTS: usize = 6;
 
 /// Newton's step, as a share of the step, after which the error is its square, and so below rounding.
@@ -37,8 +37,8 @@ const BISECTIONS: usize = 50;
 /// Multiple of the noise of a guard beyond which the guard has certainly left zero, upwards or downwards.
 const CLEAR_MULTIPLE: f64 = 8.0;
 
-/// Share of the time in which a gap would close at its rate, up to which a closing is looked for first: gravity delays or hastens it.
-const SOON: f64 = 2.0;
+/// Multiple of the time in which a gap would close at its rate, up to which a closing is looked for first: gravity delays or hastens it.
+const SOON_MULTIPLE: f64 = 2.0;
 
 /// Share of the step up to which the place is searched for at which a guard has left zero.
 const LARGEST_START: f64 = 0.1;
@@ -225,7 +225,7 @@ impl<O: Output> Step<'_, '_, O> {
         }
         if start > noise {
             // A gap that is about to close may open again before the first sample.
-            let expected = SOON * start / -self.rate_at_start(guard);
+            let expected = SOON_MULTIPLE * start / -self.rate_at_start(guard);
             let soon = if expected > 0.0 && expected < limit { expected } else { limit };
             let found = first_crossing(|s| value(self, s), start, soon);
             return if found.is_some() || soon == limit {

@@ -99,7 +99,7 @@ impl<O: Output> Step<'_, '_, O> {
         ((t - self.t) / self.h).clamp(0.0, 1.0)
     }
 
-    /// Contact forces at a place of the step, by interface; empty if the equations of the states are singular.
+    /// Contact forces at a place of the step, by interface; zero if the equations of the states are singular.
     fn contacts_at(&mut self, s: f64) -> PerBlock<ContactForce> {
         let Some(&SeriesSpan { series, joints, h, .. }) = self.output.series() else {
             return self.at(s, true).answer.iter().flat_map(|answer| answer.contacts.iter().copied()).collect();
