@@ -3,7 +3,7 @@
 use crate::text::{printable_lines, shown};
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
 use rocking::run_folder::FolderError;
-use rocking::studies::TooFewReplicates;
+use rocking::studies::OptionOutOfRange;
 use rocking::{RecordError, SceneFileError, SolveError};
 use rocking_codegen::joints::JointsError;
 use std::fmt;
@@ -81,7 +81,7 @@ pub enum Failure {
          name a table .csv", .0.display())]
     NoParquet(PathBuf),
     /// A table cannot have the format that the end of its name says.
-    #[error("{}: tables are CSV or Parquet; give a name that ends in .csv or .parquet", .0.display())]
+    #[error("{}: tables are CSV or Parquet; choose another name, one that ends in .csv or .parquet", .0.display())]
     NoFormat(PathBuf),
     /// A small table is written as CSV alone.
     #[error("{}: curves and shares are written as CSV; give a name that ends in .csv", .0.display())]
@@ -89,12 +89,15 @@ pub enum Failure {
     /// A record is written as CSV alone.
     #[error("{}: a record is written as CSV; give a name that ends in .csv", .0.display())]
     RecordIsCsv(PathBuf),
-    /// There are too few replicates for bands.
-    #[error("--replicates: {0}")]
-    Bands(TooFewReplicates),
+    /// The confidence or the number of replicates of bands is out of range.
+    #[error("--{}: {}; {}", .0.key, .0.problem, .0.remedy)]
+    Bands(OptionOutOfRange),
     /// The figures of a table or a sweep cannot be drawn: its file, and the reason.
     #[error("{}: {}", .0.display(), .1)]
     Spectrum(PathBuf, String),
+    /// The table of fragility curves beside a table of runs is damaged: its file, and the reason.
+    #[error("{}: {}; make it anew with `rocking fragility`, or remove it to have the usual limit states", .0.display(), .1)]
+    Curves(PathBuf, String),
     /// A table of runs cannot be evaluated: the table, and the reason.
     #[error("{}: {}", .0.display(), .1)]
     Study(PathBuf, String),

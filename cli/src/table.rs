@@ -28,6 +28,21 @@ impl Format {
     /// Extensions of other formats, in which no table is written.
     const OTHERS: [&str; 9] = ["xlsx", "xls", "ods", "gz", "zip", "json", "feather", "arrow", "h5"];
 
+    /// Extensions of what a user writes by hand or has fetched, and of digests of tables: no table takes their place.
+    const NO_OUTPUT: [&str; 5] = ["toml", "at2", "asc", "v2", "digest"];
+
+    /// Format of a table that is to be written.
+    ///
+    /// # Errors
+    /// As [`Format::of`]; [`Failure::NoFormat`] also for the extensions of scenes and records.
+    pub fn of_output(path: &Path) -> Result<Format, Failure> {
+        let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
+        match extension.filter(|extension| Format::NO_OUTPUT.contains(&&**extension)) {
+            Some(_) => Err(Failure::NoFormat(path.into())),
+            None => Format::of(path),
+        }
+    }
+
     /// Format by the extension of a file: Parquet for `.parquet`, otherwise CSV.
     ///
     /// # Errors

@@ -441,3 +441,31 @@ fn a_run_whose_column_may_be_falling_at_its_end_is_not_determined() {
     let table = folder.table("t.csv");
     assert_eq!(table.texts("outcome"), ["no-uplift", "rocks", "not-determined"], "{table:?}");
 }
+
+/// The figures of a table are those that the study drew; a damaged table of curves is refused, not left out of account.
+#[test]
+fn figures_have_the_bands_of_the_table_of_curves() {
+    let folder = folder();
+    study(&folder, &["--plot", "ida.svg", "--quiet"]);
+    let (drawn, curves) = (folder.read("ida-fragility.svg"), folder.read("ida-fragility.csv"));
+    folder.succeeds("plot ida.csv");
+    assert_eq!(folder.read("ida-fragility.svg"), drawn);
+    let header: Vec<&str> = curves.lines().next().expect("a header").split(',').collect();
+    let place = |name: &str| header.iter().position(|own| *own == name).expect("a column");
+    for (name, cell, told) in [
+        ("confidence", "9", "row 1: confidence = 9 is out of range"),
+        ("confidence", "nan", "row 1: confidence = NaN is out of range"),
+        ("replicates", "9000000000000", "row 1: replicates = 9000000000000 are too many"),
+        ("seed", "x", "row 1: `x` is no seed"),
+        ("state", "fell", "row 1: `fell` is no limit state"),
+        ("layout", "heaps", "row 1: `heaps` is no layout"),
+    ] {
+        let row = curves.lines().nth(1).expect("a row");
+        let mut cells: Vec<&str> = row.splitn(header.len(), ',').collect();
+        cells[place(name)] = cell;
+        folder.write("ida-fragility.csv", curves.replacen(row, &cells.join(","), 1));
+        folder.refused("plot ida.csv", &["ida-fragility.csv: ", told, "make it anew with `rocking fragility`"]);
+    }
+    folder.remove("ida-fragility.csv");
+    folder.succeeds("plot ida.csv");
+}

@@ -293,3 +293,31 @@ fn residual_slides_have_a_figure_of_their_own() {
     folder.succeeds("sweep peaks.toml --plot p.svg");
     assert!(folder.has("p.svg") && !folder.has("p-slides.svg"));
 }
+
+/// A point that is there twice in the place of another, and a largest angle that is no number, make no figure.
+#[test]
+fn damaged_tables_are_not_drawn() {
+    let axes =
+        "ask = \"peaks\"\n[axes]\nseed = { from = 1, to = 4 }\nrocking_period = { from = 1, to = 4, steps = 3 }\n";
+    let folder = folder(&format!("{COLUMN}{NOISE}[solver]\nt_end = 14.0\n"), axes);
+    folder.succeeds("sweep sweep.toml");
+    folder.succeeds("plot sweep.csv");
+    let whole = folder.read("sweep.csv");
+    let with = |place: usize, cell: &str| {
+        let row = |line: &str| {
+            let mut cells: Vec<&str> = line.split(',').collect();
+            if cells[0] == "7" {
+                cells[place] = cell;
+            }
+            cells.join(",") + "\n"
+        };
+        whole.lines().map(row).collect::<String>()
+    };
+    let peak = whole.lines().next().and_then(|header| header.split(',').position(|name| name == "peak_1"));
+    for (damaged, told) in
+        [(with(1, "1"), "points are missing"), (with(peak.expect("a column"), "x"), "point 7 has `x` for a number")]
+    {
+        folder.write("sweep.csv", damaged);
+        folder.refused("plot sweep.csv", &[told]);
+    }
+}

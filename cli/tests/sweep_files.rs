@@ -137,6 +137,10 @@ fn a_damaged_part_is_gone_on_with_from_the_damage() {
         (without.into_bytes(), "(99 of them".into()),
         (zeros, format!("({before_zeros} of them")),
         (b"another header\n0,\n".to_vec(), "row(s) to".into()),
+        // A row of another point, one too many, and none that is text.
+        (rows.replacen(lines[50], &lines[51].replacen("50,", "49,", 1), 1).into_bytes(), "(49 of them".into()),
+        ((whole.clone() + lines[1]).into_bytes(), format!("({} of them", whole.lines().count() - 1)),
+        ([&rows.as_bytes()[..5000], b"\xff\xfe\n"].concat(), format!("({before_zeros} of them")),
     ] {
         folder.write(&part, damaged);
         let told = folder.succeeds("sweep sweep.toml --out t.csv");
@@ -402,4 +406,35 @@ fn shards_of_different_sweeps_are_not_merged_beside_one_without_digest() {
     folder.remove("1.csv.digest");
     folder.refused("merge merged.csv 1.csv 2.csv 3.csv", &["3.csv", "2.csv"]);
     assert!(!folder.has("merged.csv"));
+}
+
+/// A digest that cannot be read is none that may be left out of account, and none that `merge` may write over.
+#[test]
+fn a_damaged_digest_is_refused() {
+    let folder = folder(SWEEP);
+    for number in 1..=2 {
+        folder.succeeds(&format!("sweep sweep.toml --out {number}.csv --shard {number}/2 --quiet"));
+    }
+    let digest = folder.read("1.csv.digest");
+    for damaged in [&b"\xff"[..], b"", b"no digest"] {
+        folder.write("1.csv.digest", damaged);
+        for sweep in ["", " --sweep sweep.toml"] {
+            folder.refused(&format!("merge m.csv 1.csv 2.csv{sweep}"), &["1.csv.digest: it is no digest of a sweep"]);
+        }
+    }
+    folder.write("1.csv.digest", &digest);
+    folder.refused("merge 1.csv.digest 1.csv 2.csv", &["choose another name"]);
+    assert_eq!(folder.read("1.csv.digest"), digest);
+    folder.succeeds("merge m.csv 1.csv 2.csv --sweep sweep.toml");
+}
+
+/// A table takes the place of no scene and no record, whether or not the sweep reads it.
+#[test]
+fn a_table_takes_no_name_of_a_scene_or_a_record() {
+    let folder = folder(SWEEP);
+    for name in ["other.toml", "other.AT2"] {
+        folder.write(name, "precious");
+        folder.refused(&format!("sweep sweep.toml --out {name}"), &["choose another name"]);
+        assert_eq!(folder.read(name), "precious");
+    }
 }

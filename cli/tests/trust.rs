@@ -78,6 +78,17 @@ fn a_sweep_has_a_column_of_trust_on_request() {
     assert!(table.row(1).number("peak_3") > 0.0, "{table:?}");
     folder.succeeds("merge merged.csv table.csv --sweep sweep.toml");
     assert_eq!(folder.read("merged.csv"), folder.read("table.csv"));
+
+    // Over two axes such runs are hatched, and belong to no share.
+    folder.write("sweep.toml", sweep.replace("[axes]", "[axes]\nomega = [12.566, 100.0]"));
+    let told = folder.succeeds("sweep sweep.toml --out plane.csv");
+    assert!(told.contains("not determined (column trust)"), "{told}");
+    // Without largest angles the plane is drawn.
+    let plane = folder.read("plane.csv").replace("peak_", "angle_");
+    folder.write("plane.csv", plane);
+    let told = folder.succeeds("plot plane.csv");
+    assert!(told.contains("1 of 4 runs is not determined and is left out"), "{told}");
+    assert!(folder.read("plane.svg").contains("not determined (hatched), 25 %"));
 }
 
 /// Long records on three slender drums: what is not determined counts as undecided in the table, the stripes and the legend.

@@ -15,8 +15,7 @@ use pyo3::types::{PyDict, PyList};
 use rocking::Fate;
 use rocking::intensity::Intensity;
 use rocking::studies::{
-    self, Cells, Fragility, FragilityOptions, IdaFile, IdaOutcome, Layout, LimitState, MOST_REPLICATES, Observation,
-    RunError,
+    self, Cells, Fragility, FragilityOptions, IdaFile, IdaOutcome, Layout, LimitState, Observation, RunError,
 };
 use rocking::sweep::ERROR;
 use std::path::{Path, PathBuf};
@@ -299,17 +298,9 @@ pub fn fragility(
     let runs = runs.observations(py)?;
     let state: LimitState =
         state.parse().map_err(|refused| error::of_study(py, &format!("there is no state `{state}`; {refused}")))?;
-    if !(confidence > 0.0 && confidence < 1.0) {
-        return Err(PyValueError::new_err(format!(
-            "confidence = {confidence} is out of range; give a share between 0 and 1"
-        )));
-    }
-    if replicates > MOST_REPLICATES {
-        return Err(PyValueError::new_err(format!("replicates = {replicates} are too many; give at most 1e6")));
-    }
     let mut options = FragilityOptions::default();
     (options.replicates, options.confidence, options.seed) = (replicates, confidence, seed);
-    options.check().map_err(|few| PyValueError::new_err(few.to_string()))?;
+    options.check().map_err(|wrong| PyValueError::new_err(wrong.to_string()))?;
     let named = |name: &str| {
         Layout::parse(name).ok_or_else(|| {
             PyValueError::new_err(format!("there is no layout `{name}`; give {}", Layout::NAMES.join(" or ")))

@@ -1,6 +1,6 @@
 //! Study files: a scene, records, levels of a measure, and limit states.
 
-use super::fragility::{FragilityOptions, Layout, MOST_REPLICATES};
+use super::fragility::{FragilityOptions, Layout};
 use super::ida::{DEFAULT_FREE_SWING, Ida, IdaError, StudyRecord};
 use super::observation::{DEFAULT_STATES, LimitState, NoLimitState};
 use crate::column::Column;
@@ -313,22 +313,12 @@ fn fragility(root: &mut Table, scene: &Scene) -> Result<(Vec<LimitState>, Fragil
         }
     };
     if let Some(replicates) = table.whole("replicates", 0)? {
-        if replicates > MOST_REPLICATES as u64 {
-            return Err(table.wrong("replicates", format!("{replicates} are too many"), "give at most 1e6"));
-        }
         options.replicates = replicates as usize;
     }
     if let Some((confidence, _)) = table.number("confidence")? {
-        if !(confidence > 0.0 && confidence < 1.0) {
-            let problem = format!("{confidence} is out of range");
-            return Err(table.wrong("confidence", problem, "give a share between 0 and 1, e.g. 0.9"));
-        }
         options.confidence = confidence;
     }
-    options.check().map_err(|few| {
-        let remedy = format!("give 0 for no bands, or at least {}", few.least);
-        table.wrong("replicates", format!("{} are too few", few.replicates), &remedy)
-    })?;
+    options.check().map_err(|wrong| table.wrong(wrong.key, wrong.problem, &wrong.remedy))?;
     options.seed = table.whole("seed", 0)?.unwrap_or(options.seed);
     if let Some((name, _)) = table.text("layout")? {
         let layout = Layout::parse(&name);

@@ -12,7 +12,7 @@ mod statements;
 mod table;
 
 pub use goodness::Goodness;
-pub use options::{FragilityOptions, Layout, MOST_REPLICATES, TooFewReplicates};
+pub use options::{FragilityOptions, Layout, MOST_REPLICATES, OptionOutOfRange};
 pub use table::{Bands, Count};
 
 use super::observation::{LimitState, Observation};

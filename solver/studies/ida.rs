@@ -277,8 +277,11 @@ impl Ida {
         self.len() == 0
     }
 
-    /// Number of the record, the level and the factor of a run.
-    fn point(&self, index: usize) -> (usize, f64, f64) {
+    /// Number of the record from zero, level and factor of the record of a run.
+    ///
+    /// # Panics
+    /// If there are no more than `index` runs.
+    pub fn point(&self, index: usize) -> (usize, f64, f64) {
         let (record, level) = (index / self.levels.len(), self.levels[index % self.levels.len()]);
         let grown = if self.intensity.measure == rocking_ground::Measure::Arias { level.sqrt() } else { level };
         (record, level, self.factors[record] * grown)

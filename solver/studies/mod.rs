@@ -19,7 +19,7 @@ mod stripes;
 
 pub use file::IdaFile;
 pub use fragility::{
-    Bands, Count, Fit, Fragility, FragilityOptions, Goodness, Layout, MOST_REPLICATES, TooFewReplicates,
+    Bands, Count, Fit, Fragility, FragilityOptions, Goodness, Layout, MOST_REPLICATES, OptionOutOfRange,
 };
 pub use ida::{Ida, IdaError, IdaOutcome, IdaRun, RunError, StudyRecord};
 pub use observation::{

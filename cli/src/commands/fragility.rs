@@ -40,7 +40,7 @@ pub fn fragility(request: &arguments::Fragility) -> Result<(), Failure> {
     // Curves of some of the rows do not take the place of those of all.
     let kind = if request.conditions.is_empty() { "fragility" } else { "where-fragility" };
     let out = request.out.clone().unwrap_or_else(|| beside(&request.table.with_extension("csv"), kind));
-    if Format::of(&out)? != Format::Csv {
+    if Format::of_output(&out)? != Format::Csv {
         return Err(Failure::OnlyCsv(out));
     }
     let outputs = [out.clone(), shares_beside(&out)].into_iter().chain(request.plot.clone());
@@ -446,6 +446,8 @@ struct Curve<'a> {
     confidence: Option<f64>,
     replicates: Option<usize>,
     replicates_fitted: Option<usize>,
+    seed: Option<u64>,
+    layout: &'static str,
     chi_squared: Option<f64>,
     degrees_of_freedom: Option<usize>,
     p_value: Option<f64>,
@@ -496,6 +498,8 @@ impl Curve<'_> {
             confidence: bands.map(|bands| bands.confidence),
             replicates: bands.map(|bands| bands.replicates),
             replicates_fitted: bands.map(|bands| bands.fitted),
+            seed: bands.map(|bands| bands.seed),
+            layout: fragility.layout.name(),
             chi_squared: goodness.map(|goodness| goodness.chi_squared),
             degrees_of_freedom: goodness.map(|goodness| goodness.degrees_of_freedom),
             p_value: goodness.and_then(|goodness| goodness.p_value),

@@ -6,7 +6,7 @@ use crate::arguments;
 use crate::commands::fragility::{self, Conclusions};
 use crate::commands::plot::write;
 use crate::commands::spectrum::beside;
-use crate::commands::sweep::{OUTCOME, TIME, TableDigest, Tally, already_there, threads};
+use crate::commands::sweep::{OUTCOME, TIME, TableDigest, Tally, already_there, has_result, threads};
 use crate::error::{Failure, at};
 use crate::output;
 use crate::plot::{self, Figure, Paper};
@@ -20,7 +20,7 @@ use csv::StringRecord;
 use rocking::Fate;
 use rocking::intensity::Intensity;
 use rocking::studies::{
-    DEFAULT_STATES, FRACTILES, FragilityOptions, Ida, IdaFile, IdaRun, LimitState, Stripe, stripes,
+    DEFAULT_STATES, FRACTILES, FragilityOptions, Ida, IdaFile, IdaRun, Layout, LimitState, Stripe, stripes,
 };
 use rocking::sweep::ERROR;
 use serde::Serialize;
@@ -30,7 +30,7 @@ use std::path::{Path, PathBuf};
 /// Runs a study, or the missing runs of an interrupted one.
 pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     let out = &request.out;
-    let format = Format::of(out)?;
+    let format = Format::of_output(out)?;
     let IdaFile { ida, states, options, inputs, .. } = &IdaFile::from_file(&request.file).map_err(Failure::scene)?;
     let stripes_file = beside(&out.with_extension("csv"), "stripes");
     let [curves_file, shares_file] = fragility::tables(out);
@@ -101,7 +101,8 @@ fn filled(
     columns: &[Column],
     threads: &rayon::ThreadPool,
 ) -> Result<(Growing, usize), Failure> {
-    let mut table = Growing::open(target, columns, digest.number(), 0..ida.len())?;
+    let is_row = |row: &StringRecord, index: usize| is_row(ida, columns, row, index);
+    let mut table = Growing::open(target, columns, digest.number(), 0..ida.len(), is_row)?;
     let resumed = table.next;
     let bar = Progress::of_points(ida.len(), resumed, request.quiet || request.json);
     table.fill(ida.len(), threads, &bar, || {
@@ -122,7 +123,7 @@ pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<Option<String
     }
     let read = fragility::read(table, None, &[])?;
     let label = read.measure.parse().map_or(read.measure.clone(), |intensity: Intensity| intensity.label());
-    let (states, options) = asked(table).unwrap_or_else(|| (DEFAULT_STATES.to_vec(), FragilityOptions::default()));
+    let (states, options) = asked(table)?.unwrap_or_else(|| (DEFAULT_STATES.to_vec(), FragilityOptions::default()));
     let conclusions = Conclusions::of(&read.runs, &read.measure, &states, &options);
     let pictures = [
         (plot::ida(&label, &read.runs, &stripes(&read.runs), paper), picture),
@@ -132,21 +133,45 @@ pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<Option<String
 }
 
 /// Limit states and options of the table of fragility curves beside a table of runs; `None` if there is none.
-fn asked(table: &Path) -> Option<(Vec<LimitState>, FragilityOptions)> {
+fn asked(table: &Path) -> Result<Option<(Vec<LimitState>, FragilityOptions)>, Failure> {
     let [curves, _] = fragility::tables(table);
-    let Rows { header, rows } = open(&curves).ok()?;
-    let column = |name: &str| header.iter().position(|own| own == name);
-    let [state, confidence, replicates] = [column("state")?, column("confidence")?, column("replicates")?];
-    let (mut states, mut options) = (Vec::new(), FragilityOptions::default());
-    for row in rows {
-        let row = row.ok()?;
-        states.push(row.get(state)?.parse().ok()?);
-        // Blank where there is no curve.
-        if let (Ok(share), Ok(count)) = (row.get(confidence)?.parse(), row.get(replicates)?.parse()) {
-            (options.confidence, options.replicates) = (share, count);
-        }
+    if !curves.exists() {
+        return Ok(None);
     }
-    (!states.is_empty()).then_some((states, options))
+    let refused = |problem: String| Failure::Curves(curves.clone(), problem);
+    let Rows { header, rows } = open(&curves).map_err(at(Failure::Curves, &curves))?;
+    let place = |name: &str| header.iter().position(|own| own == name);
+    let needed = |name: &str| place(name).ok_or_else(|| refused(format!("there is no column `{name}`")));
+    let [state, fit, confidence, replicates] =
+        [needed("state")?, needed("fit")?, needed("confidence")?, needed("replicates")?];
+    // Tables of earlier versions have neither.
+    let [seed, layout] = [place("seed"), place("layout")];
+    let (mut states, mut options) = (Vec::new(), FragilityOptions::default());
+    let (mut has_curves, mut has_bands) = (false, false);
+    for (number, row) in rows.enumerate() {
+        let row = row.map_err(at(Failure::Curves, &curves))?;
+        let wrong = |name: &str, cell: &str| refused(format!("row {}: `{}` is no {name}", number + 1, printable(cell)));
+        let cell = |place: usize| row.get(place).unwrap_or_default();
+        states.push(cell(state).parse().map_err(|_| wrong("limit state", cell(state)))?);
+        if let Some(name) = layout.map(cell) {
+            options.layout = Some(Layout::parse(name).ok_or_else(|| wrong("layout", name))?);
+        }
+        has_curves |= cell(fit) == "lognormal";
+        if cell(replicates).is_empty() {
+            continue;
+        }
+        has_bands = true;
+        options.replicates = cell(replicates).parse().map_err(|_| wrong("number of replicates", cell(replicates)))?;
+        options.confidence = cell(confidence).parse().map_err(|_| wrong("confidence", cell(confidence)))?;
+        if let Some(text) = seed.map(cell) {
+            options.seed = text.parse().map_err(|_| wrong("seed", text))?;
+        }
+        options.check().map_err(|error| refused(format!("row {}: {} = {}", number + 1, error.key, error.problem)))?;
+    }
+    if has_curves && !has_bands {
+        options.replicates = 0;
+    }
+    if states.is_empty() { Err(refused("there are no rows".into())) } else { Ok(Some((states, options))) }
 }
 
 /// Writes figures into files; returns the names of the files, with captions.
@@ -191,15 +216,23 @@ fn columns(ida: &Ida) -> Vec<Column> {
     columns
 }
 
+/// The cells that say which run of a study it is: its number, record, scale and level.
+fn point(ida: &Ida, index: usize) -> Vec<String> {
+    let (record, level, scale) = ida.point(index);
+    let name = printable(&ida.records()[record].name).into_owned();
+    vec![index.to_string(), name, format!("{scale:?}"), format!("{level:?}")]
+}
+
+/// Whether a row may be that of a run of a study.
+fn is_row(ida: &Ida, columns: &[Column], row: &StringRecord, index: usize) -> bool {
+    let outcome = columns.iter().zip(row).find(|(column, _)| column.name == OUTCOME).map_or("", |(_, cell)| cell);
+    point(ida, index).iter().zip(row).all(|(due, cell)| due == cell) && has_result(row, outcome)
+}
+
 /// A run as `columns` cells.
 fn cells(ida: &Ida, run: &IdaRun, columns: usize) -> StringRecord {
     let number = |value: f64| format!("{value:?}");
-    let mut cells = vec![
-        run.index.to_string(),
-        printable(&ida.records()[run.record].name).into_owned(),
-        number(run.scale),
-        number(run.level),
-    ];
+    let mut cells = point(ida, run.index);
     match &run.result {
         Ok(found) => {
             cells.push(found.fate.name().into());

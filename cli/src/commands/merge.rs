@@ -3,7 +3,7 @@
 //! A table does not say how many points the sweep has. Missing points at the end are therefore noticed only if the sweep is given as
 //! well. Shards of different sweeps differ in their columns, or in the digests beside the tables.
 
-use crate::commands::sweep::{OUTCOME, TIME, TableDigest, columns, digest_file, inputs_of};
+use crate::commands::sweep::{OUTCOME, TableDigest, columns, digest_file, has_result, inputs_of, is_row};
 use crate::commands::{fractiles, probability};
 use crate::error::{Failure, at};
 use crate::files::{folder_of, make_readable, temporary};
@@ -13,12 +13,10 @@ use crate::table::column::{Column, Rows};
 use crate::table::parquet;
 use crate::table::{Format, open};
 use crate::terminal::print;
-use crate::text::{printable, shown};
+use crate::text::shown;
 use csv::StringRecord;
-use rocking::Fate;
 use rocking::ground::read_file;
-use rocking::scene_file::Setting;
-use rocking::sweep::{Ask, ERROR, Sweep};
+use rocking::sweep::Sweep;
 use std::fs::File;
 #[cfg(feature = "parquet")]
 use std::io::{BufWriter, Write};
@@ -27,9 +25,9 @@ use std::path::{Path, PathBuf};
 
 /// Joins tables in the order of their points. With the sweep's file, it also checks that all points are there.
 pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(), Failure> {
-    let format = Format::of(out)?;
+    let format = Format::of_output(out)?;
     let expected = sweep.map(ExpectedSweep::of).transpose()?;
-    let mut inputs = shards.to_vec();
+    let mut inputs: Vec<PathBuf> = shards.iter().flat_map(|shard| [shard.clone(), digest_file(shard)]).collect();
     inputs.extend(expected.iter().flat_map(|expected| inputs_of(expected.file, &expected.sweep)));
     let is_sampled = expected.as_ref().is_some_and(|expected| expected.sweep.samples().is_some());
     let mut outputs: Vec<PathBuf> =
@@ -88,30 +86,27 @@ impl ExpectedSweep<'_> {
         let sweep = Sweep::from_file(file).map_err(Failure::scene)?;
         Ok(ExpectedSweep { file, columns: columns(&sweep)?, sweep })
     }
-
-    /// Whether a row may be that of a point: it has the values of the point, each cell fits its column, and a time of overturning stands there
-    /// exactly if the column overturns and the sweep asks for that time.
-    fn has(&self, row: &StringRecord, point: usize) -> bool {
-        let is_setting = |(setting, cell): (&Setting, &str)| printable(&setting.to_string()) == cell;
-        let of_axes = || self.sweep.settings(point).into_iter().zip(row.iter().skip(1));
-        let cells = || self.columns.iter().zip(row);
-        let cell = |name: &str| cells().find(|(column, _)| column.name == name).map_or("", |(_, cell)| cell);
-        let is_timed = self.sweep.ask != Ask::Overturns && cell(OUTCOME) == Fate::Overturns.name();
-        point < self.sweep.len()
-            && of_axes().all(is_setting)
-            && cells().all(|(column, cell)| column.takes(cell))
-            && is_timed != cell(TIME).is_empty()
-    }
 }
 
 /// Refuses a table whose digest is not that of the sweep, or, if no sweep is given, of the first table that has one.
 /// A table passes if it has no digest, or if there is none to compare it with.
 fn check_digest(path: &Path, first: &Path, expected: Option<&ExpectedSweep>) -> Result<(), Failure> {
-    let of_table = |table: &Path| read_file(digest_file(table)).ok().and_then(|bytes| String::from_utf8(bytes).ok());
-    let Some(own) = of_table(path) else { return Ok(()) };
+    let of_table = |table: &Path| -> Result<Option<String>, Failure> {
+        let file = digest_file(table);
+        if !file.exists() {
+            return Ok(None);
+        }
+        let text = read_file(&file).map_err(at(Failure::Input, &file))?;
+        let is_digest =
+            |text: &String| !text.trim().is_empty() && text.trim().bytes().all(|byte| byte.is_ascii_hexdigit());
+        let text = String::from_utf8(text).ok().filter(is_digest);
+        let problem = "it is no digest of a sweep; run this shard again".to_string();
+        text.map(Some).ok_or(Failure::Input(file, problem))
+    };
+    let Some(own) = of_table(path)? else { return Ok(()) };
     let (expected, other) = match expected {
         Some(expected) => (Some(TableDigest::of(&expected.sweep, expected.file)?.to_string()), expected.file),
-        None => (of_table(first), first),
+        None => (of_table(first)?, first),
     };
     match expected {
         Some(expected) if expected != own => {
@@ -169,9 +164,9 @@ fn check_row(
     let point = index(row, path)?;
     let problem = if point != next as u64 {
         format!("it has point {point} where {next} is due{}", missing(point, next as u64))
-    } else if !is_whole(row, outcome) {
+    } else if !has_result(row, &row[outcome]) {
         format!("the row of point {point} is not whole")
-    } else if let Some(expected) = expected.filter(|expected| !expected.has(row, next)) {
+    } else if let Some(expected) = expected.filter(|expected| !is_row(&expected.sweep, &expected.columns, row, next)) {
         format!("the row of point {point} is not one of {}", shown(expected.file))
     } else {
         return Ok(());
@@ -187,13 +182,6 @@ fn missing(point: u64, next: u64) -> String {
         None => return String::new(),
     };
     format!("; {missing}: a table before it is not given, or not whole")
-}
-
-/// Whether a row has an outcome, or an error and no outcome.
-fn is_whole(row: &StringRecord, outcome: usize) -> bool {
-    let is_fate = Fate::parse(&row[outcome]).is_some();
-    let has_error = row.iter().next_back().is_some_and(|error| !error.is_empty());
-    is_fate != has_error && (is_fate || &row[outcome] == ERROR)
 }
 
 /// Writes the rows of tables below their header.

@@ -20,7 +20,7 @@ use rocking::Fate;
 use rocking::ground::read_file;
 use rocking::run_folder::Digest;
 use rocking::scene_file::Setting;
-use rocking::sweep::{Ask, Cell, CellKind, Field, NOT_DETERMINED, Row, Sweep};
+use rocking::sweep::{Ask, Cell, CellKind, ERROR, Field, NOT_DETERMINED, Row, Sweep};
 use serde::Serialize;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -28,7 +28,7 @@ use std::path::{Path, PathBuf};
 /// Runs a sweep, or the missing points of an interrupted one.
 pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
     let out = request.table();
-    let format = Format::of(&out)?;
+    let format = Format::of_output(&out)?;
     let sweep = Sweep::from_file(&request.file).map_err(Failure::scene)?;
     if request.plot.is_some() {
         spectrum::check(request, &sweep)?;
@@ -121,7 +121,8 @@ fn filled(
     let points = points(request, sweep);
     let fields = sweep.fields().map_err(Failure::scene)?;
     digest.add(format!("{points:?}").as_bytes());
-    let mut table = Growing::open(target, columns, digest.number(), points.clone())?;
+    let is_row = |row: &StringRecord, point: usize| is_row(sweep, columns, row, point);
+    let mut table = Growing::open(target, columns, digest.number(), points.clone(), is_row)?;
     let resumed = table.next - points.start;
     let bar = Progress::of_points(points.len(), resumed, request.quiet || request.json);
     table.fill(points.end, threads, &bar, || {
@@ -132,6 +133,28 @@ fn filled(
         }
     })?;
     Ok((table, resumed))
+}
+
+/// Whether a row may be that of a point of a sweep: it has the values of the point, each cell fits its column, there is an outcome or an error, and a time
+/// of overturning exactly if the column overturns and the sweep asks for that time.
+pub fn is_row(sweep: &Sweep, columns: &[Column], row: &StringRecord, point: usize) -> bool {
+    let is_setting = |(setting, cell): (&Setting, &str)| printable(&setting.to_string()) == cell;
+    let of_axes = || sweep.settings(point).into_iter().zip(row.iter().skip(1));
+    let cells = || columns.iter().zip(row);
+    let cell = |name: &str| cells().find(|(column, _)| column.name == name).map_or("", |(_, cell)| cell);
+    let is_timed = sweep.ask != Ask::Overturns && cell(OUTCOME) == Fate::Overturns.name();
+    point < sweep.len()
+        && of_axes().all(is_setting)
+        && cells().all(|(column, cell)| column.takes(cell))
+        && has_result(row, cell(OUTCOME))
+        && is_timed != cell(TIME).is_empty()
+}
+
+/// Whether a row has an outcome, or an error and no outcome.
+pub fn has_result(row: &StringRecord, outcome: &str) -> bool {
+    let is_fate = Fate::parse(outcome).is_some();
+    let has_error = row.iter().next_back().is_some_and(|error| !error.is_empty());
+    is_fate != has_error && (is_fate || outcome == ERROR)
 }
 
 /// How many rows an interrupted run had left, in words; nothing if none.

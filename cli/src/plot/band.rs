@@ -1,8 +1,9 @@
 //! Band of angles: the range of the angles of a run and its companions, behind the curves of the run. The band starts where the runs part.
 
-use super::curve::{Frame, Point};
+use super::curve::Frame;
+use super::curve::Point;
 use super::drawn_run::{DrawnRun, FALL};
-use super::sheet::{Anchor, Panel, Sheet, text_width};
+use super::sheet::{Anchor, Panel, Sheet, patch};
 use super::style::{self, Stroke};
 use rocking::trust::{Band, Trust};
 
@@ -49,7 +50,7 @@ pub fn draw(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel) {
     }
 }
 
-/// Draws a line at the horizon, with its name at the top of the panel, or at the bottom if curves run through the upper place only.
+/// Draws a line at the horizon, with its name in a free place beside the line.
 pub fn mark_horizon(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel) {
     let Some(trust) = open(motion) else { return };
     let frame = &panel.frame;
@@ -60,16 +61,20 @@ pub fn mark_horizon(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel) {
     };
     let x = panel.place_x(t);
     sheet.line([x, frame.top], [x, frame.bottom()], &Stroke::dashed(style::INK, 1.2, &[6.0, 3.0]));
-    // The name stands left of the line if there is room for it, otherwise right.
-    let width = text_width(words, style::NOTE);
-    let is_room = x - frame.left > width + 12.0;
-    let (at, anchor) = if is_room { (x - 6.0, Anchor::End) } else { (x + 6.0, Anchor::Start) };
-    let left = if is_room { at - width } else { at };
-    let size = f64::from(style::NOTE);
-    let is_free = |y: &f64| sheet.is_free(&Frame { left, top: y - size, width, height: size + 4.0 });
+    // Left of the line, or right: at the top, or at the bottom. Where there is no room for all words, the first ones say the same.
     let (top, bottom) = (frame.top + 16.0, frame.bottom() - 8.0);
-    let y = [top, bottom].into_iter().find(is_free).unwrap_or(top);
-    sheet.words_on_paper([at, y], words, style::NOTE, anchor);
+    let place = |words: &'static str| {
+        let sides = [(x - 6.0, Anchor::End), (x + 6.0, Anchor::Start)].into_iter();
+        let places = sides.flat_map(|(at, anchor)| [top, bottom].map(|y| ([at, y], anchor)));
+        let patch = |(at, anchor): &(Point, Anchor)| patch(*at, words, style::NOTE, *anchor);
+        let fits = |patch: Frame| patch.left >= frame.left && patch.right() <= frame.right();
+        let mut fitting = places.filter(|place| fits(patch(place))).peekable();
+        let usual = fitting.peek().copied();
+        fitting.find(|place| sheet.is_free(&patch(place))).or(usual).map(|(at, anchor)| (at, anchor, words))
+    };
+    let (at, anchor, words) =
+        [words, "known up to here"].into_iter().find_map(place).unwrap_or(([x, top], Anchor::Middle, words));
+    sheet.words_on_paper(at, words, style::NOTE, anchor);
 }
 
 /// Range of a block's angles in each column of the band, up to the time `end`: `x`, and the lower and upper end of the range `[px]`.

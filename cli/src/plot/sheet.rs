@@ -40,6 +40,8 @@ pub struct Sheet {
     drawn: Vec<Primitive>,
     /// Curves of data in panels, as points on paper `[px]`. Names of marked lines are placed clear of these curves.
     data: Vec<Vec<Point>>,
+    /// Patches under texts on paper. Names of marked lines are placed clear of these as well.
+    patches: Vec<Frame>,
 }
 
 /// A figure: its name, its caption, its SVG document, and the sheet that it was drawn from.
@@ -135,6 +137,7 @@ impl Sheet {
             height: 0.0,
             drawn: Vec::new(),
             data: Vec::new(),
+            patches: Vec::new(),
         }
     }
 
@@ -204,9 +207,18 @@ impl Sheet {
         self.data.extend(inside);
     }
 
-    /// Whether no curve of data runs through a frame.
+    /// Whether no curve of data and no other text on paper is in a frame, and the frame is on the sheet.
     pub fn is_free(&self, frame: &Frame) -> bool {
-        self.data.iter().all(|run| curve::clip(run, frame).is_empty())
+        let is_beside = |patch: &Frame| {
+            patch.left >= frame.right()
+                || patch.right() <= frame.left
+                || patch.top >= frame.bottom()
+                || patch.bottom() <= frame.top
+        };
+        let is_on_sheet = frame.left >= 0.0 && frame.right() <= self.width;
+        is_on_sheet
+            && self.patches.iter().all(is_beside)
+            && self.data.iter().all(|run| curve::clip(run, frame).is_empty())
     }
 
     /// A history in a panel: values over time, thinned to what the width can show.
@@ -307,25 +319,19 @@ impl Sheet {
 
     /// Text on a white patch, so that it is legible where lines run.
     pub fn words_on_paper(&mut self, at: Point, text: &str, size: u32, anchor: Anchor) {
-        let width = text_width(text, size) + 6.0;
-        let frame = Frame {
-            left: at[0] - 3.0 - behind(anchor, width - 6.0),
-            top: at[1] - f64::from(size),
-            width,
-            height: f64::from(size) + 4.0,
-        };
-        self.areas(vec![corners(&frame)], style::REST_FILL);
+        self.patch(patch(at, text, size, anchor));
         self.words(at, text, size, anchor);
     }
 
     /// Upward text on a white patch.
     pub fn words_up_on_paper(&mut self, at: Point, text: &str, size: u32, anchor: Anchor) {
-        let height = text_width(text, size) + 6.0;
-        let top = at[1] - height + 3.0 + behind(anchor, height - 6.0);
-        // No letter rises by a whole size: the patch leaves a line free that the text stands close beside.
-        let frame = Frame { left: at[0] - f64::from(size) + 1.0, top, width: f64::from(size) + 3.0, height };
-        self.areas(vec![corners(&frame)], style::REST_FILL);
+        self.patch(patch_upwards(at, text, size, anchor));
         self.words_upwards(at, text, size, anchor);
+    }
+
+    fn patch(&mut self, frame: Frame) {
+        self.areas(vec![corners(&frame)], style::REST_FILL);
+        self.patches.push(frame);
     }
 
     /// A legend from `top` down, over the width of the panels. An entry wider than the panels is broken into lines, beside which no other entry
@@ -482,6 +488,20 @@ fn tidy(value: f64) -> f64 {
 }
 
 /// Width of the part of a text before its anchor `[px]`; `width` is that of the whole.
+/// The patch under a text on paper.
+pub fn patch(at: Point, text: &str, size: u32, anchor: Anchor) -> Frame {
+    let width = text_width(text, size);
+    let (left, size) = (at[0] - 3.0 - behind(anchor, width), f64::from(size));
+    Frame { left, top: at[1] - size, width: width + 6.0, height: size + 4.0 }
+}
+
+/// The patch under an upward text on paper. No letter rises by a whole size: the patch leaves a line free that the text stands close beside.
+pub fn patch_upwards(at: Point, text: &str, size: u32, anchor: Anchor) -> Frame {
+    let height = text_width(text, size);
+    let (top, size) = (at[1] - height - 3.0 + behind(anchor, height), f64::from(size));
+    Frame { left: at[0] - size + 1.0, top, width: size + 3.0, height: height + 6.0 }
+}
+
 fn behind(anchor: Anchor, width: f64) -> f64 {
     match anchor {
         Anchor::Start => 0.0,

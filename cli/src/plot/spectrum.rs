@@ -93,7 +93,14 @@ pub fn figures(table: &Path, paper: &Paper) -> Result<Vec<Figure>, NoSpectrum> {
     if paper.angles == Angles::Degrees {
         points.axes.iter_mut().for_each(in_degrees);
     }
-    Ok(match Drawing::of(&points.axes, points.len(), points.angles.entries > 0)? {
+    let drawing = Drawing::of(&points.axes, points.len(), points.angles.entries > 0)?;
+    if let Drawing::Curves(family) | Drawing::Strips(family) = &drawing
+        && !family.is_paired
+        && !points.has_each_once()
+    {
+        return Err(grid::missing());
+    }
+    Ok(match drawing {
         Drawing::Curves(family) => {
             let slides = (points.slides.entries > 0).then(|| Measure::slides(&points));
             let measures = [Measure::angles(&points, &family)].into_iter().chain(slides);

@@ -152,9 +152,7 @@ pub fn mark_ending(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, anchor: 
         along.map(move |(y, anchor)| (beside, y, anchor))
     });
     let is_free = |(beside, y, anchor): &(f64, f64, Anchor)| {
-        let top = if matches!(anchor, Anchor::End) { *y } else { y - height };
-        let size = f64::from(style::NOTE);
-        beside + 4.0 < sheet.width && sheet.is_free(&Frame { left: beside - size, top, width: size + 4.0, height })
+        sheet.is_free(&sheet::patch_upwards([*beside, *y], &words, style::NOTE, *anchor))
     };
     let (beside, y, anchor) = places.find(is_free).unwrap_or((sides[0], first[0].0, first[0].1));
     sheet.words_up_on_paper([beside, y], &words, style::NOTE, anchor);

@@ -1,7 +1,7 @@
 //! The table of a sweep or a study while it is written: a sweep that was interrupted continues with the first missing row.
 //!
 //! Rows are appended in order to a hidden CSV file beside the table. The name of this file holds a fingerprint of all that decides the rows.
-//! A hidden file that is found is kept up to the first line that is not the line due. The complete hidden file is renamed to the table.
+//! A hidden file that is found is kept up to the first line that is not the line due: of another point, cut, or damaged. The complete hidden file is renamed to the table.
 //! For a table in Parquet, the hidden file is converted instead, and removed once the Parquet file has its name.
 
 use super::Format;
@@ -18,7 +18,7 @@ use std::fs::{File, TryLockError};
 use std::io::BufWriter;
 #[cfg(feature = "parquet")]
 use std::io::ErrorKind;
-use std::io::{BufRead, BufReader, Seek, SeekFrom, Write};
+use std::io::{BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::ops::{ControlFlow, Range};
 use std::path::{Path, PathBuf};
 
@@ -36,9 +36,15 @@ pub struct Growing {
 }
 
 impl Growing {
-    /// Continues a hidden file that is found, or begins a new one. The table has a row for each of `points`.
-    /// [`Failure::Running`] if another process is writing this file (noticed on Unix only).
-    pub fn open(out: &Path, columns: &[Column], fingerprint: u64, points: Range<usize>) -> Result<Growing, Failure> {
+    /// Continues a hidden file that is found, or begins a new one. The table has a row for each of `points`; `is_row` says whether a row may be that of a
+    /// point. [`Failure::Running`] if another process is writing this file (noticed on Unix only).
+    pub fn open(
+        out: &Path,
+        columns: &[Column],
+        fingerprint: u64,
+        points: Range<usize>,
+        is_row: impl Fn(&StringRecord, usize) -> bool,
+    ) -> Result<Growing, Failure> {
         let failed = at(Failure::File, out);
         let mut header = csv::Writer::from_writer(Vec::new());
         header.write_record(columns.iter().map(|column| &column.name)).map_err(at(Failure::File, out))?;
@@ -51,7 +57,15 @@ impl Growing {
         if cfg!(unix) && matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
             return Err(Failure::Running(out.into()));
         }
-        let lines = keep_due(&mut file, &header, points.start).map_err(&failed)?;
+        let first = points.start;
+        let is_row = |row: &StringRecord, point: usize| {
+            points.contains(&point)
+                && row.len() == columns.len()
+                && row[0] == *point.to_string()
+                && columns.iter().zip(row).all(|(column, cell)| column.takes(cell))
+                && is_row(row, point)
+        };
+        let lines = keep_due(&mut file, &header, first, is_row).map_err(&failed)?;
         if lines == 0 {
             file.write_all(&header).map_err(failed)?;
         }
@@ -59,8 +73,8 @@ impl Growing {
             file: csv::Writer::from_writer(file),
             part,
             out: out.into(),
-            first: points.start,
-            next: points.start + lines.saturating_sub(1),
+            first,
+            next: first + lines.saturating_sub(1),
         })
     }
 
@@ -124,19 +138,24 @@ impl Growing {
     }
 }
 
+/// Longest line that is read `[B]`: a file without line breaks is no table.
+const LONGEST_LINE: u64 = 1 << 20;
+
 /// Truncates a file before the first line that is not the line due, such as a cut line, or what a failing disk has left.
-/// Due are the header, then a row for each point from `first` on. Returns the number of lines kept.
-fn keep_due(file: &mut File, header: &[u8], first: usize) -> std::io::Result<usize> {
+/// Due are the header, then a row for each point from `first` on, as long as `is_row` holds. Returns the number of lines kept.
+fn keep_due(
+    file: &mut File,
+    header: &[u8],
+    first: usize,
+    is_row: impl Fn(&StringRecord, usize) -> bool,
+) -> std::io::Result<usize> {
     let is_due = |line: &[u8], lines: usize| match lines {
         0 => line == header,
-        _ => {
-            let begins = line.starts_with(format!("{},", first + lines - 1).as_bytes());
-            begins && line.ends_with(b"\n") && !line.contains(&0)
-        }
+        _ => row(line).is_some_and(|row| is_row(&row, first + lines - 1)),
     };
     let (mut kept, mut lines, mut line) = (0u64, 0, Vec::new());
     let mut reader = BufReader::new(&mut *file);
-    while reader.read_until(b'\n', &mut line)? > 0 && is_due(&line, lines) {
+    while reader.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut line)? > 0 && is_due(&line, lines) {
         kept += line.len() as u64;
         lines += 1;
         line.clear();
@@ -144,4 +163,11 @@ fn keep_due(file: &mut File, header: &[u8], first: usize) -> std::io::Result<usi
     file.set_len(kept)?;
     file.seek(SeekFrom::End(0))?;
     Ok(lines)
+}
+
+/// The row of a line; `None` if the line is cut, or no text.
+fn row(line: &[u8]) -> Option<StringRecord> {
+    let is_whole = line.ends_with(b"\n") && !line.contains(&0);
+    let reader = csv::ReaderBuilder::new().has_headers(false).buffer_capacity(line.len()).from_reader(line);
+    reader.into_records().next().filter(|_| is_whole)?.ok()
 }

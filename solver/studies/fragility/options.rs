@@ -33,32 +33,42 @@ pub struct FragilityOptions {
     pub layout: Option<Layout>,
 }
 
-/// Too few replicates for percentiles.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("{replicates} replicate(s) have no bands of {} %; give 0 for no bands, or at least {least}", (1e5 * confidence).round() / 1e3)]
-pub struct TooFewReplicates {
-    /// Number of replicates.
-    pub replicates: usize,
-    /// Share within the bands.
-    pub confidence: f64,
-    /// Least number of replicates with which one is beyond each end of the bands.
-    pub least: usize,
+/// An option of a fragility that is out of range.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{key} = {problem}; {remedy}")]
+pub struct OptionOutOfRange {
+    /// Name of the option.
+    pub key: &'static str,
+    /// Its value, and what is wrong with it.
+    pub problem: String,
+    /// What to give instead.
+    pub remedy: String,
 }
 
 impl FragilityOptions {
-    /// Checks that there are replicates beyond the ends of the bands.
+    /// Checks the options: the confidence is a share between 0 and 1; replicates are at most [`MOST_REPLICATES`], and none or so many that some are beyond
+    /// the ends of the bands.
     ///
     /// # Errors
-    /// [`TooFewReplicates`]
-    pub fn check(&self) -> Result<(), TooFewReplicates> {
+    /// [`OptionOutOfRange`]
+    pub fn check(&self) -> Result<(), OptionOutOfRange> {
         let &FragilityOptions { replicates, confidence, .. } = self;
+        let wrong = |key, problem, remedy| Err(OptionOutOfRange { key, problem, remedy });
+        if !(confidence > 0.0 && confidence < 1.0) {
+            let remedy = "give a share between 0 and 1, e.g. 0.9".into();
+            return wrong("confidence", format!("{confidence} is out of range"), remedy);
+        }
+        if replicates > MOST_REPLICATES {
+            return wrong("replicates", format!("{replicates} are too many"), "give at most 1e6".into());
+        }
         // Without the rounding of shares such as 0.9.
         let least = (2.0 / (1.0 - confidence) - 1e-6).ceil() as usize;
-        match replicates {
-            0 => Ok(()),
-            few if few < least => Err(TooFewReplicates { replicates, confidence, least }),
-            _ => Ok(()),
+        if (1..least).contains(&replicates) {
+            let percent = (1e5 * confidence).round() / 1e3;
+            let remedy = format!("give 0 for no bands, or at least {least}");
+            return wrong("replicates", format!("{replicates} have no bands of {percent} %"), remedy);
         }
+        Ok(())
     }
 }
 

@@ -37,6 +37,8 @@ pub struct Bands {
     pub confidence: f64,
     /// Number of replicates.
     pub replicates: usize,
+    /// Seed of the resampling.
+    pub seed: u64,
     /// Number of replicates with a rising lognormal curve; the bands are made of these.
     pub fitted: usize,
     /// Band of the median; `None` if fewer than nine tenths of the replicates have a curve.
@@ -179,6 +181,7 @@ impl Table {
         Some(Bands {
             confidence: options.confidence,
             replicates: options.replicates,
+            seed: options.seed,
             fitted: curves.len(),
             median: is_enough.then(|| of(&Probit::median)),
             dispersion: is_enough.then(|| of(&Probit::dispersion)),

@@ -9,7 +9,7 @@ use crate::plot::curve::{self, Frame};
 use crate::plot::sheet::{Key, Sheet};
 use crate::plot::style::{self, Stroke};
 
-/// Hatching of points without a result.
+/// Hatching of points without an answer.
 const HATCH: Stroke = Stroke::solid(style::INK, 0.8);
 const HATCH_STEP: f64 = 5.0;
 
@@ -26,6 +26,7 @@ impl Class {
             Class::AtOnce => "#1f1b2e",
             Class::Slides => "#e9efdc",
             Class::Collapses => "#7a1f3d",
+            Class::NotDetermined => "#f4edc9",
             Class::Error => "#f3d6e4",
         }
     }
@@ -41,6 +42,7 @@ impl Class {
             Class::AtOnce => "without impact",
             Class::Slides => "slides and stands",
             Class::Collapses => "collapses: a block slides off",
+            Class::NotDetermined => "not determined (hatched)",
             Class::Error => "no result (hatched)",
         }
     }
@@ -69,14 +71,14 @@ pub fn legend(panels: &[Vec<Class>], areas: &[f64], least: Option<(Stroke, &str)
     entries
 }
 
-/// The cells of a panel as polygons, hatched where there is no result.
+/// The cells of a panel as polygons, hatched where there is no answer.
 pub fn cells(sheet: &mut Sheet, place: &Place, cells: &[Class]) {
     let columns = place.x.values.len();
     for layer in layers(cells, columns) {
         let areas = layer.outlines.iter().map(|outline| outline.iter().map(|corner| place.corner(*corner)).collect());
         sheet.areas(areas.collect(), layer.class.fill());
     }
-    let wrong = |cell: &usize| cells[*cell] == Class::Error;
+    let wrong = |cell: &usize| !cells[*cell].has_answer();
     let frame = &place.frame;
     let mut hatches = Vec::new();
     for (row, cells) in (0..cells.len()).collect::<Vec<_>>().chunks(columns).enumerate() {

@@ -17,13 +17,15 @@ pub enum Class {
     AtOnce,
     /// A block lost its support.
     Collapses,
+    /// Companions of the run do not determine its outcome.
+    NotDetermined,
     /// The point has no result, or no motion follows from the laws of contact.
     Error,
 }
 
 impl Class {
     /// All classes, in the order of the enum.
-    pub const ALL: [Class; 10] = [
+    pub const ALL: [Class; 11] = [
         Class::NoUplift,
         Class::Slides,
         Class::Rocks,
@@ -33,6 +35,7 @@ impl Class {
         Class::AfterOne,
         Class::AtOnce,
         Class::Collapses,
+        Class::NotDetermined,
         Class::Error,
     ];
 
@@ -51,6 +54,11 @@ impl Class {
             ("error" | "undetermined", _) => Class::Error,
             _ => return None,
         })
+    }
+
+    /// Whether it is known what becomes of the column.
+    pub fn has_answer(self) -> bool {
+        !matches!(self, Class::NotDetermined | Class::Error)
     }
 
     /// Whether the column overturned or collapsed.

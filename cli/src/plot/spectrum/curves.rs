@@ -263,14 +263,15 @@ impl Place<'_> {
         }
     }
 
-    /// A curve, interrupted where there is no answer. Points are drawn as dots if they are not joined, or if an answer stands alone.
+    /// A curve, interrupted where there is no answer. Points are drawn as dots if they are not joined, if an answer stands alone, or if the column is lost in all
+    /// up to the next interruption.
     fn values(&self, sheet: &mut Sheet, curve: &Curve, is_joined: bool) {
         let at = |(x, number): (f64, f64)| self.at([self.x.share(x), self.y.share(number).min(1.0)]);
         let parts = curve.values.chunk_by(|a, b| a.1.is_some() && b.1.is_some());
         let mut runs: Vec<Vec<Point>> = Vec::new();
         for part in parts {
             let known: Vec<(f64, f64)> = part.iter().filter_map(|(x, number)| Some((*x, (*number)?))).collect();
-            if !is_joined || known.len() == 1 {
+            if !is_joined || known.len() == 1 || known.iter().all(|(_, number)| number.is_infinite()) {
                 known.iter().for_each(|value| sheet.dot(at(*value), curve.stroke.color));
                 continue;
             }

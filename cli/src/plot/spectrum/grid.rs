@@ -99,6 +99,13 @@ pub struct Grid {
     pub panels: Vec<Vec<Class>>,
     /// [`Points::notes`].
     pub notes: String,
+    /// [`Points::cut`].
+    pub cut: Option<String>,
+}
+
+/// The refusal of a table in which points are missing.
+pub fn missing() -> NoSpectrum {
+    NoSpectrum::NoTable("points are missing".into())
 }
 
 /// Share of some panels whose class is `wanted`, by the areas of the cells of each panel.
@@ -110,7 +117,7 @@ pub fn share(panels: &[Vec<Class>], areas: &[f64], wanted: impl Fn(Class) -> boo
 
 /// Share of the cells with a result in which the column is lost, by their areas; zero if there are none.
 pub fn share_lost(panels: &[Vec<Class>], areas: &[f64]) -> f64 {
-    let answered = share(panels, areas, |class| class != Class::Error);
+    let answered = share(panels, areas, Class::has_answer);
     if answered > 0.0 { share(panels, areas, Class::is_lost) / answered } else { 0.0 }
 }
 
@@ -125,8 +132,8 @@ impl Grid {
         }
         let panels: Option<Vec<Vec<Class>>> = panels.into_iter().map(|cells| cells.into_iter().collect()).collect();
         // There are as many rows as cells. A cell without a row therefore means that another cell has two.
-        let panels = panels.ok_or_else(|| NoSpectrum::NoTable("points are missing".into()))?;
-        Ok(Grid { plane, panels, notes: points.notes() })
+        let panels = panels.ok_or_else(missing)?;
+        Ok(Grid { plane, panels, notes: points.notes(), cut: points.cut() })
     }
 
     /// Areas of the cells of a panel, row by row, the lowest row first, as shares of the panel.

@@ -62,7 +62,8 @@ pub fn spectrum(grid: &Grid, paper: &Paper) -> Figure {
         Anchor::Middle,
     );
     let areas = grid.areas();
-    let entries = legend(&grid.panels, &areas, Some((LEAST, grid.loss().it)));
+    let mut entries = legend(&grid.panels, &areas, Some((LEAST, grid.loss().it)));
+    entries.extend(grid.cut.clone().map(|cut| (Key::None, cut)));
     sheet.height = sheet.legend(bottom + NUMBERS + 20.0, &entries) + 6.0;
 
     let share = |panel: usize| percent(share_lost(&grid.panels[panel..=panel], &areas));

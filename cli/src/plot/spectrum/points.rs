@@ -5,9 +5,10 @@ use super::refusal::NoSpectrum;
 use crate::number::counted;
 use crate::table::column::{Rows, TRUST};
 use crate::table::open;
+use crate::text::printable;
 use csv::StringRecord;
 use rocking::sweep::NOT_DETERMINED;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 /// Key of an axis, and its different values as written in the table, in the order in which they first occur.
@@ -60,10 +61,18 @@ impl Quantity {
     }
 
     /// Adds the numbers of a row; `known` replaces all of them.
-    fn add(&mut self, row: &StringRecord, known: Option<f64>) {
-        let cell = |entry: usize| row.get(self.first + entry).and_then(|cell| cell.parse::<f64>().ok());
-        let number = |entry: usize| cell(entry).map_or(f64::NAN, |number| known.unwrap_or(number.abs()));
-        self.values.extend((0..self.entries).map(number));
+    ///
+    /// # Errors
+    /// The first cell that is neither blank nor a number.
+    fn add(&mut self, row: &StringRecord, known: Option<f64>) -> Result<(), String> {
+        for cell in row.iter().skip(self.first).take(self.entries) {
+            self.values.push(match cell.parse::<f64>() {
+                Ok(number) => known.unwrap_or(number.abs()),
+                Err(_) if cell.is_empty() => f64::NAN,
+                Err(_) => return Err(cell.into()),
+            });
+        }
+        Ok(())
     }
 
     /// The number of a block or interface, counted from zero, in a row; infinite where the column is lost. `None` where the row has no answer.
@@ -104,17 +113,21 @@ impl Points {
             }
             let class = Class::of(&row[outcome], &row[impacts]);
             let class = class.ok_or_else(|| broken(format!("point {} has outcome `{}`", &row[0], &row[outcome])))?;
+            let is_open = trust.is_some_and(|trust| row.get(trust) == Some(NOT_DETERMINED));
+            let class = if is_open && class.has_answer() { Class::NotDetermined } else { class };
             truncated += usize::from(
                 truncated_at.and_then(|at| row.get(at)).is_some_and(|cell| cell.eq_ignore_ascii_case("true")),
             );
-            let is_open = class == Class::Error || trust.is_some_and(|trust| row.get(trust) == Some(NOT_DETERMINED));
-            let known = match class.is_lost() {
-                _ if is_open => Some(f64::NAN),
-                true => Some(f64::INFINITY),
-                false => None,
+            let known = match class {
+                class if !class.has_answer() => Some(f64::NAN),
+                class if class.is_lost() => Some(f64::INFINITY),
+                _ => None,
             };
-            angles.add(&row, known);
-            slides.add(&row, known);
+            for quantity in [&mut angles, &mut slides] {
+                let no_number =
+                    |cell: String| broken(format!("point {} has `{}` for a number", &row[0], printable(&cell)));
+                quantity.add(&row, known).map_err(no_number)?;
+            }
             classes.push(class);
         }
         Ok(Points { axes, numbers, classes, angles, slides, truncated })
@@ -125,15 +138,32 @@ impl Points {
         self.classes.len()
     }
 
-    /// Sentences for captions on the runs that have no result, and on those that t_end cuts; empty if there are none.
+    /// Whether each combination of the values of the axes occurs once.
+    pub fn has_each_once(&self) -> bool {
+        let rows: HashSet<&[usize]> = (0..self.len()).map(|row| self.numbers(row)).collect();
+        rows.len() == self.len() && rows.len() == combinations(&self.axes)
+    }
+
+    /// Sentences for captions on the runs that have no answer, and on those that t_end cuts; empty if there are none.
     pub fn notes(&self) -> String {
-        let failed = self.classes.iter().filter(|class| **class == Class::Error).count();
-        let failed = match failed {
-            0 => String::new(),
-            1 => format!(" 1 of {} has no result and is left out.", counted(self.len(), ["run", "runs"])),
-            count => format!(" {count} of {} have no result and are left out.", counted(self.len(), ["run", "runs"])),
-        };
-        failed + &self.truncation()
+        let runs = counted(self.len(), ["run", "runs"]);
+        let mut notes = String::new();
+        for (class, [has, have]) in [
+            (Class::NotDetermined, ["is not determined", "are not determined"]),
+            (Class::Error, ["has no result", "have no result"]),
+        ] {
+            match self.classes.iter().filter(|own| **own == class).count() {
+                0 => {}
+                1 => notes.push_str(&format!(" 1 of {runs} {has} and is left out.")),
+                count => notes.push_str(&format!(" {count} of {runs} {have} and are left out.")),
+            }
+        }
+        notes + &self.truncation()
+    }
+
+    /// An entry of a legend on the runs that t_end cuts; `None` if there are none.
+    pub fn cut(&self) -> Option<String> {
+        (self.truncated > 0).then(|| format!("{} of {} runs are cut at t_end", self.truncated, self.len()))
     }
 
     /// A sentence for captions on the runs that t_end cuts; empty if there are none.

@@ -10,7 +10,7 @@ use super::scale::Scale;
 use crate::number::percent;
 use crate::plot::curve::Frame;
 use crate::plot::paper::Paper;
-use crate::plot::sheet::{Anchor, Figure, LEFT, RIGHT, Sheet, shortened};
+use crate::plot::sheet::{Anchor, Figure, Key, LEFT, RIGHT, Sheet, shortened};
 use crate::plot::style;
 
 /// Height of a strip `[px]`.
@@ -51,7 +51,9 @@ pub fn draw(points: &Points, family: &Family, paper: &Paper) -> Figure {
     let below = [EDGE + 0.5 * width, bottom + NUMBERS + 12.0];
     sheet.words(below, &x.label(), style::LABEL, Anchor::Middle);
     let each_the_same = vec![1.0; x.values.len()];
-    sheet.height = sheet.legend(below[1] + 8.0, &legend(&strips, &each_the_same, None)) + 6.0;
+    let mut entries = legend(&strips, &each_the_same, None);
+    entries.extend(points.cut().map(|cut| (Key::None, cut)));
+    sheet.height = sheet.legend(below[1] + 8.0, &entries) + 6.0;
     let share = |strip: &Vec<Class>| percent(share_lost(std::slice::from_ref(strip), &each_the_same));
     let parts: Vec<String> = family
         .titles

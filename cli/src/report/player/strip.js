@@ -21,15 +21,21 @@ function drawStripOnce() {
   c.setTransform(ratio, 0, 0, ratio, 0, 0);
   const shaken = run.ax || run.ay, floor = height - AXIS;
   const split = shaken ? TOP + 0.58 * (floor - TOP) : floor;
+  // Angles of a fall leave the strip.
   const curve = (list, middle, reach, size) => {
     if (!list || !(size > 0)) return;
+    c.save();
+    c.beginPath();
+    c.rect(0, middle - reach - 1, width, 2 * reach + 2);
+    c.clip();
     c.beginPath();
     for (let frame = 0; frame <= last; frame++) {
-      const share = Math.max(-1, Math.min(1, list[frame] / size));
+      const share = Math.max(-2, Math.min(2, list[frame] / size));
       const [px, py] = [stripX(times[frame], width), middle - reach * share];
       frame ? c.lineTo(px, py) : c.moveTo(px, py);
     }
     c.stroke();
+    c.restore();
   };
   const words = (text, x, y, align = "left") => {
     c.font = "12px system-ui, sans-serif";
@@ -102,6 +108,8 @@ function drawStripOnce() {
 
 function drawStrip(state) {
   const { context: c, width, height } = sharp(strip);
+  // A page that is hidden has no room; it is drawn when it is shown.
+  if (!strip.width || !strip.height) return;
   if (!drawnStrip) drawStripOnce();
   c.clearRect(0, 0, width, height);
   c.drawImage(drawnStrip, 0, 0, width, height);
