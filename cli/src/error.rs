@@ -146,6 +146,9 @@ pub enum Failure {
 /// Remedy in the library's message on a folder that cannot be written; the command line adds its option to this text.
 const CHOOSE: &str = "choose a folder that can be written to";
 
+/// Longest line of a scene that is shown `[B]`: the samples of a record would fill many screens.
+const LONGEST_SHOWN: usize = 2000;
+
 /// A refused scene with its text.
 #[derive(Debug)]
 pub struct SceneFailure {
@@ -177,6 +180,7 @@ impl Failure {
         let source_text = match places(&error).first() {
             Some(SceneFileError::Scene { file, .. }) => std::fs::read_to_string(file)
                 .ok()
+                .filter(|text| text.lines().all(|line| line.len() <= LONGEST_SHOWN))
                 .map(|text| NamedSource::new(shown(file), same_length(&text)).with_language("toml")),
             _ => None,
         };

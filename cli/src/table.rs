@@ -12,6 +12,8 @@ use crate::error::Failure;
 use crate::files::{LARGEST_TABLE, check};
 use column::{OUTCOME, Rows};
 use csv::StringRecord;
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
 /// The file format of a table.
@@ -67,6 +69,7 @@ pub fn open(path: &Path) -> std::io::Result<Rows> {
     check(path, LARGEST_TABLE)?;
     match Format::of(path).map_err(std::io::Error::other)? {
         Format::Csv => {
+            check_first_line(path)?;
             let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::Headers).from_path(path)?;
             let header = reader.headers().map_err(damage)?.clone();
             let axes = header.iter().position(|name| name == OUTCOME).unwrap_or(0);
@@ -76,6 +79,21 @@ pub fn open(path: &Path) -> std::io::Result<Rows> {
         #[cfg(feature = "parquet")]
         Format::Parquet => parquet::rows(path),
     }
+}
+
+/// Longest first line of a table `[B]`: a file without line breaks is none.
+const LONGEST_HEADER: u64 = 1 << 20;
+
+/// Refuses a file whose first line is no header of a table.
+fn check_first_line(path: &Path) -> std::io::Result<()> {
+    let mut line = Vec::new();
+    BufReader::new(File::open(path)?).take(LONGEST_HEADER).read_until(b'\n', &mut line)?;
+    let problem = match line.len() as u64 {
+        LONGEST_HEADER.. => "its first line is longer than a megabyte: it is no table",
+        _ if line.contains(&0) => "its first line has zero bytes: it is no table, or was not written to its end",
+        _ => return Ok(()),
+    };
+    Err(std::io::Error::new(std::io::ErrorKind::InvalidData, problem))
 }
 
 /// A row without the blanks that an edited table may have beside its commas. Texts of the first `axes` cells keep theirs: they are names.

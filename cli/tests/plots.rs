@@ -248,7 +248,7 @@ fn energies_of_blocks_that_slide_are_drawn() {
     let speed = response.rows().map(|row| row.number("vx_1").abs()).fold(0.0, f64::max);
     // 0.8 m by 2.4 m, 1 kg/m².
     let largest = 0.5 * 0.8 * 2.4 * speed.powi(2);
-    let (_, caption) = told.split_once("Largest: ").expect("in the caption");
+    let (_, caption) = told.split_once("Largest, at rows and events: ").expect("in the caption");
     let found: f64 = caption.split(' ').next().expect("a number").parse().expect("a number");
     assert!(largest > 0.1 && (found / largest - 1.0).abs() < 5e-3, "{found} {largest}");
     // The name of the end keeps clear of the curves.

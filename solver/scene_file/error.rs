@@ -69,5 +69,9 @@ pub fn text(file: &Path) -> Result<String, SceneFileError> {
         let problem = format!("line {line} is not UTF-8 text; save the scene as UTF-8");
         unreadable(problem)
     })?;
+    if let Some(place) = text.find('\0') {
+        let line = text[..place].matches('\n').count() + 1;
+        return Err(unreadable(format!("line {line} has zero bytes: it is no text, or was not written to its end")));
+    }
     Ok(text.into())
 }

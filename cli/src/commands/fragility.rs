@@ -96,9 +96,14 @@ pub fn read(table: &Path, measure: Option<&str>, conditions: &[(String, String)]
     let columns = Columns::of(found.header.iter().map(String::from).collect(), measure).map_err(refused)?;
     let conditions = columns.conditions(conditions).map_err(refused)?;
     let mut pooling = Pooling::new(&columns);
-    let mut runs = Vec::new();
+    let (mut runs, mut due, mut gap) = (Vec::new(), 0, None);
     for (number, row) in found.rows.enumerate() {
         let row = row.map_err(at(Failure::Study, table))?;
+        if let Some(index) = columns.index(&row) {
+            // Tables of several studies may follow each other.
+            gap = gap.or((index > due).then_some([number + 1, index, due]));
+            due = index + 1;
+        }
         if conditions.iter().all(|(place, value)| is_value(&row[*place], value)) {
             let run = pooling.add(&row, number).and_then(|()| columns.observation(&row, number));
             runs.push(run.map_err(|problem| refused(format!("row {}{problem}", number + 1)))?);
@@ -113,9 +118,20 @@ pub fn read(table: &Path, measure: Option<&str>, conditions: &[(String, String)]
     }
     let name = &columns.names[columns.level];
     let measure = if is_measure(name) || measure.is_some() { name.clone() } else { last_part(name) };
-    let warnings = pooling.warnings();
+    let mut warnings = pooling.warnings();
+    warnings.extend(gap.map(|[row, index, due]| {
+        format!("row {row} is run {index} where {due} is due: rows are missing")
+    }));
     let (peaks, has_slides) = (columns.peaks.len(), !columns.slides.is_empty());
     Ok(Runs { measure, runs, warnings, peaks, has_slides })
+}
+
+impl Columns {
+    /// The number of a run, in a table that numbers its runs.
+    fn index(&self, row: &StringRecord) -> Option<usize> {
+        let place = self.names.iter().position(|name| name == "index")?;
+        row[place].parse().ok()
+    }
 }
 
 /// What is gathered of all rows that are read, beside their runs.

@@ -77,7 +77,7 @@ fn caption(motion: &DrawnRun, largest: f64) -> String {
     if motion.falls_at().is_some() {
         caption.push_str(" Curves leave the panel where the column falls.");
     } else {
-        caption.push_str(&format!(" Largest: {} J.", brief(largest)));
+        caption.push_str(&format!(" Largest, at rows and events: {} J.", brief(largest)));
     }
     caption
 }

@@ -153,15 +153,17 @@ impl Sheet {
 
     /// Frame, ticks and numbers of a panel.
     pub fn axes(&mut self, Panel { frame, x, y }: &Panel) {
-        let y_range = y.as_ref().map_or([0.0, 1.0], |axis| axis.range);
+        // Rounding must not lose the tick at an end.
+        let widened = |axis: &Axis| [axis.range[0] - 1e-9 * axis.step, axis.range[1] + 1e-9 * axis.step];
+        let (x_range, y_range) = (widened(x), y.as_ref().map_or([0.0, 1.0], widened));
         // Margins fix the position of the frame. The layout ends at the bottom of the frame, because the height of the sheet is not yet known.
-        let mut layout = Layout::new((x.range[0], x.range[1]), (y_range[0], y_range[1]))
+        let mut layout = Layout::new((x_range[0], x_range[1]), (y_range[0], y_range[1]))
             .with_width(self.width)
             .with_height(frame.bottom())
             .with_force_margins(frame.left, self.width - frame.right())
             .with_force_margins_y(frame.top, 0.0)
-            .with_x_axis_min(x.range[0])
-            .with_x_axis_max(x.range[1])
+            .with_x_axis_min(x_range[0])
+            .with_x_axis_max(x_range[1])
             .with_y_axis_min(y_range[0])
             .with_y_axis_max(y_range[1])
             .with_x_tick_step(x.step)

@@ -25,7 +25,7 @@ function tell(state) {
   const index = eventAt(state.t), event = run.events[index];
   const where = event && event.at.length ? `, interface${event.at.length > 1 ? "s" : ""}\u00a0${event.at.map(one => one + 1).join(", ")}` : "";
   text(element("event"), event
-    ? `${index + 1} of ${run.events.length}: ${WORDS[event.kind]} at ${event.t.toFixed(4)} s${where}, then ${event.mode === "rest" ? run.rest : "mode\u00a0" + event.mode}`
+    ? `${index + 1} of ${run.events.length}: ${WORDS[event.kind]} at ${event.t.toFixed(4)} s${where}, then ${nameOf(event)}`
     : run.events.length ? `${run.events.length} event${run.events.length > 1 ? "s" : ""} to come` : "No events in this run");
   for (const output of readouts) {
     const angle = state.theta[output.dataset.block - 1];

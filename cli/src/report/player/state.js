@@ -3,7 +3,7 @@
 // What `#run` holds (lengths N per block or interface, base first; F frames in order of time, an event twice: before, after):
 //   blocks [[half-widths of base and top, half-height]] m; round [whether a drum]; contact [[half-length, centre on the lower face, on the upper face]] m; gravity m/s²; fills per link
 //   angles rad, the largest that the curves show, null for all
-//   patterns [{signs, text, mode, mirrored, link}]; rest, the name of the mode without open interfaces; events [{t, kind, at: interfaces from 0, mode after}]
+//   patterns [{signs, text, mode, mirrored, link}]; rest, the name of the mode without open interfaces; events [{t, kind, at: interfaces from 0, mode and mirrored after}]
 //   t [F] s; theta [N][F] rad, clockwise positive; omega [N][F] rad/s; pattern [F] index
 //   joints [N][3][F] m, null where nothing slides or flies: a, c, b; the middle of the face below to that of the block's base is (a, c) in the axes
 //   of the block below and then (b, 0) in its own
@@ -117,7 +117,7 @@ function enlarged(theta, factor) {
 }
 
 function nameOf(pattern) {
-  if (pattern.mode === null) return run.rest;
+  if (pattern.mode === null || pattern.mode === "rest") return run.rest;
   return `mode ${pattern.mode}` + (pattern.mirrored ? ", mirrored" : "");
 }
 
