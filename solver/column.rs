@@ -443,6 +443,11 @@ impl Column {
         self.stacks[interface].stack
     }
 
+    /// The largest frequency parameter `p` of the stacks `[rad/s]`.
+    pub(crate) fn largest_frequency_parameter(&self) -> f64 {
+        (0..self.len()).map(|interface| self.stack(interface).frequency_parameter()).fold(0.0, f64::max)
+    }
+
     /// Horizontal ground acceleration `[m/s²]` at which the interface (from zero) of the column at rest opens:
     /// `c_i g / h_Pi` for aligned blocks (docs/book/model.md, section 4, the paper's Eq. 1).
     pub fn uplift_acceleration(&self, interface: usize) -> f64 {

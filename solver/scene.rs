@@ -419,8 +419,7 @@ impl Scene {
                 );
             }
         }
-        let frequency = |interface: usize| self.column.stack(interface).frequency_parameter();
-        let fastest = (0..blocks.len()).map(frequency).fold(0.0, f64::max);
+        let fastest = self.column.largest_frequency_parameter();
         if faults.0.is_empty() && fastest * self.options.t_end > MOST_RADIANS {
             let problem = format!(
                 "{} s are {:e} times 1/p = {:e} s of the smallest stack",
@@ -461,8 +460,7 @@ impl Scene {
         for (key, value) in loosest.into_iter().filter(|(_, value)| *value > LOOSEST_TOLERANCE) {
             faults.note(key, format!("{value} is too loose for an answer"), "give at most 0.01");
         }
-        let stacks = (0..self.column.len()).map(|block| self.column.stack(block).frequency_parameter());
-        let shortest = 1.0 / stacks.fold(0.0, f64::max);
+        let shortest = 1.0 / self.column.largest_frequency_parameter();
         if !options.method.has_step_control() && options.step > shortest {
             let problem =
                 format!("{} s is longer than the time 1/p = {shortest:.4} s in which a block falls", options.step);

@@ -13,7 +13,10 @@ const TIGHTER: f64 = 0.01;
 
 /// Relative changes of excitation and sizes. The larger one is finer than any record or drawing. The smaller one is finer than single precision; its
 /// growth can still be measured where the larger one has made the runs part.
-const CHANGES: [f64; 4] = [1e-9, -1e-9, LARGEST_CHANGE, -LARGEST_CHANGE];
+const CHANGES: [f64; 4] = [SMALL_CHANGE, -SMALL_CHANGE, LARGEST_CHANGE, -LARGEST_CHANGE];
+
+/// The smaller change: as large as the errors of a run at the default tolerance.
+const SMALL_CHANGE: f64 = 1e-9;
 
 /// The larger change: no record and no drawing is known to six digits.
 pub(super) const LARGEST_CHANGE: f64 = 1e-6;
@@ -76,7 +79,7 @@ impl Change {
 
     /// Whether the change is no larger than the errors of a run at a good tolerance: a tolerance, or the smaller change of the input.
     pub(super) fn is_small(self) -> bool {
-        self.size().is_none_or(|size| size == CHANGES[0])
+        self.size().is_none_or(|size| size == SMALL_CHANGE)
     }
 
     /// Magnitude of a relative change of the input; `None` for a tolerance.
@@ -159,7 +162,7 @@ pub(super) fn amplification(companions: &[Companion]) -> (f64, bool) {
             (most.max(grown / size), parts || one.parts_at.is_some())
         })
     };
-    match [CHANGES[2], CHANGES[0]].map(growth) {
+    match [LARGEST_CHANGE, SMALL_CHANGE].map(growth) {
         [(large, false), (_, false)] => (large, false),
         // What the larger change can only bound, the smaller one may still measure.
         [(least, true), (small, false)] if small >= least => (small, false),

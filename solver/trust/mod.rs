@@ -167,22 +167,12 @@ pub fn follow_run_observed(
     progress: impl Fn(f64) -> ControlFlow<()> + Sync,
 ) -> Result<Trust, SolveError> {
     let run = |scene: &Scene| Simulator::new().run_observed(scene, &progress);
-    let plain = compared(scene, response.t_final);
-    let own = run(&plain)?;
-    let changed = |change: Change| (change, change.scene(&plain).map(|changed| run(&changed)));
-    let runs: Vec<_> = Change::all(scene).into_par_iter().map(changed).collect();
-    if let Some(cancelled) = runs.iter().find_map(|(_, run)| run.as_ref().and_then(cancellation)) {
-        return Err(cancelled);
-    }
-    // A change that would put the scene out of range has no companion.
-    let runs: Vec<_> = runs.into_iter().filter_map(|(change, run)| Some((change, run?.ok()))).collect();
-    let companions: Vec<Companion> = runs
-        .iter()
-        .map(|(change, run)| {
-            let comparison = run.as_ref().map(|run| Comparison::of(&scene.column, &own, run));
-            Companion::new(*change, run.as_ref(), comparison)
-        })
-        .collect();
+    let Followed { own, runs } = Followed::by(&compared(scene, response.t_final), run)?;
+    let companion = |(change, run): &(Change, Option<Response>)| {
+        let comparison = run.as_ref().map(|run| Comparison::of(&scene.column, &own, run));
+        Companion::new(*change, run.as_ref(), comparison)
+    };
+    let companions: Vec<Companion> = runs.iter().map(companion).collect();
     let ends_at = response.t_final;
     // A run that has come to rest is compared beyond its end.
     let until = |is_taken: fn(&Companion) -> bool| {
@@ -229,6 +219,32 @@ pub fn follow_run_observed(
     })
 }
 
+/// A run with rows, and those of its companions.
+struct Followed {
+    own: Response,
+    /// `None` for a companion that failed.
+    runs: Vec<(Change, Option<Response>)>,
+}
+
+impl Followed {
+    /// Runs a scene and its companions. A change that would put the scene out of range has no companion.
+    ///
+    /// # Errors
+    /// [`SolveError`] of the run itself, and [`SolveError::Cancelled`].
+    fn by(scene: &Scene, run: impl Fn(&Scene) -> Result<Response, SolveError> + Sync) -> Result<Followed, SolveError> {
+        let own = run(scene)?;
+        let changed = |change: Change| (change, change.scene(scene).map(|changed| run(&changed)));
+        let runs: Vec<_> = Change::all(scene).into_par_iter().map(changed).collect();
+        match runs.iter().find_map(|(_, run)| run.as_ref().and_then(cancellation)) {
+            Some(cancelled) => Err(cancelled),
+            None => {
+                let runs = runs.into_iter().filter_map(|(change, run)| Some((change, run?.ok())));
+                Ok(Followed { own, runs: runs.collect() })
+            }
+        }
+    }
+}
+
 /// The scene for the comparison with a run that ended at this time `[s]`: rows at short intervals, no forces.
 fn compared(scene: &Scene, run_end: f64) -> Scene {
     let mut plain = scene.clone();
@@ -246,8 +262,7 @@ fn compared(scene: &Scene, run_end: f64) -> Scene {
 
 /// Interval between the rows of a run that ended at this time, and of its companions `[s]`.
 fn row_interval(column: &Column, run_end: f64) -> f64 {
-    let fastest = (0..column.len()).map(|interface| column.stack(interface).frequency_parameter()).fold(0.0, f64::max);
-    let usual = ROW_INTERVAL_OF_P / fastest;
+    let usual = ROW_INTERVAL_OF_P / column.largest_frequency_parameter();
     if run_end == 0.0 {
         return usual;
     }

@@ -119,9 +119,8 @@ pub fn read(table: &Path, measure: Option<&str>, conditions: &[(String, String)]
     let name = &columns.names[columns.level];
     let measure = if is_measure(name) || measure.is_some() { name.clone() } else { last_part(name) };
     let mut warnings = pooling.warnings();
-    warnings.extend(gap.map(|[row, index, due]| {
-        format!("row {row} is run {index} where {due} is due: rows are missing")
-    }));
+    warnings
+        .extend(gap.map(|[row, index, due]| format!("row {row} is run {index} where {due} is due: rows are missing")));
     let (peaks, has_slides) = (columns.peaks.len(), !columns.slides.is_empty());
     Ok(Runs { measure, runs, warnings, peaks, has_slides })
 }
