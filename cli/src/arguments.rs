@@ -204,8 +204,8 @@ pub struct Run {
     /// Run the scene alone, without the companions that say how far its verdict can be trusted.
     ///
     /// Companions are the same scene at a tighter tolerance, and with excitation and sizes changed by 1e-9 and 1e-6. They, and the search for the
-    /// change of the shaking that changes the verdict, take 7 to 30 times as long as the run on one thread; they run on all. Files of the run are the
-    /// same without.
+    /// change of the shaking that changes the verdict, take 7 to 30 times as long as the run on one thread; they run on all. Without
+    /// them `response.csv` and `events.json` are the same.
     #[arg(long)]
     pub no_trust: bool,
     /// Follow a run by its companions although it took more than five seconds.

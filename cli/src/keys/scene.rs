@@ -103,10 +103,10 @@ pub struct Sizes {
     /// mass of the block, or of the whole column; or `density`
     #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "kg", "x-default" = "from the density"))]
     pub mass: Option<f64>,
-    /// height of the centroid above the base; of a column of one block
+    /// height of the centroid above the base; in `[column]` with `blocks = 1` only
     #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m", "x-default" = "of the homogeneous body"))]
     pub centroid_height: Option<f64>,
-    /// moment of inertia about the centroid; of a column of one block
+    /// moment of inertia about the centroid; in `[column]` with `blocks = 1` only
     #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "kg m²", "x-default" = "of the homogeneous body"))]
     pub inertia: Option<f64>,
 }

@@ -81,8 +81,18 @@ impl Place<'_> {
         sheet.words_upwards(at, &text, style::LABEL, Anchor::Middle);
     }
 
+    /// As many ticks as have room for their numbers beside one another.
     pub fn x_ticks(&self) -> Vec<(f64, String)> {
-        self.x.ticks((self.frame.width / 48.0).clamp(2.0, 6.0) as usize)
+        let most = (self.frame.width / 48.0).clamp(2.0, 6.0) as usize;
+        let fits = |ticks: &Vec<(f64, String)>| {
+            ticks.windows(2).all(|pair| {
+                let [left, right] = [0, 1].map(|tick| text_width(&pair[tick].1, style::NUMBER));
+                let apart = self.frame.width * (self.x.share(pair[1].0) - self.x.share(pair[0].0)).abs();
+                apart > 0.5 * (left + right)
+            })
+        };
+        let fewer = (1..=most).rev().map(|count| self.x.ticks(count));
+        fewer.into_iter().find(fits).unwrap_or_default()
     }
 
     pub fn y_ticks(&self) -> Vec<(f64, String)> {
