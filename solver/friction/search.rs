@@ -7,10 +7,10 @@
 //! closed: |M| <= c N      corner: N >= 0, s φ̈ >= 0      sticks: |T| <= μ N      slides: T = -ε μ N      free: gap acceleration >= 0
 //! ```
 //!
-//! A slide that begins has `ε ü >= 0` besides. In an impact velocities and impulses take the places of accelerations and forces. The search begins with what sticks and lets each violated condition name the next
-//! state. Where it goes in circles, it begins anew from the solution of a complementarity problem ([`super::complementarity`]). Where that fails as
+//! A slide that begins has `ε ü >= 0` besides. In an impact velocities and impulses take the places of accelerations and forces. The search begins with what
+//! sticks and lets each violated condition name the next state. Where it goes in circles, it begins anew from the solution of a complementarity problem ([`super::complementarity`]). Where that fails as
 //! well, and where a few blocks of large coefficients may have several answers, all combinations are tried: the admissible one with the fewest changes
-//! holds, in an impact the one with the least energy of the change.
+//! holds, in an impact the one with the least energy of the change. What all sticks comes before slides that are admissible as well.
 //!
 //! The conditions are in `search/conditions.rs`, jams and restitution in `search/impact.rs`, corners that coincide in `search/instant_later.rs`.
 
@@ -183,21 +183,23 @@ impl<'a> Search<'a> {
     /// The states in which everything sticks that touches, if they are admissible beside those found, in which something slides: they come first. Only with
     /// less kinetic than static friction, or with large coefficients, both may be admissible. `None` also where something slides on, or is to begin.
     fn without_slides(&self, first: &[Joint], found: Option<&Solution>) -> Option<Solution> {
-        let stick = |joints: &[Joint]| joints.iter().all(|joint| joint.sticks() || *joint == Joint::Free);
+        let touches = |(joint, touch): (&Joint, &Touch)| joint.sticks() || *touch == Touch::Nothing;
+        let stick = |joints: &[Joint]| joints.iter().zip(self.touch).all(touches);
         let is_unique = self.largest_coefficient() <= AMBIGUOUS_FROM
             && (self.is_impact() || self.friction.fixed == self.friction.kinetic);
         if is_unique || !stick(first) || found.is_some_and(|found| stick(&found.joints)) {
             return None;
         }
-        let sticking = self.follow(PerBlock::from_slice(first), |next| next.sticks() || *next == Joint::Free)?;
-        let touches = |(joint, touch): (&Joint, &Touch)| joint.sticks() || *touch == Touch::Nothing;
-        let holds = sticking.joints.iter().zip(self.touch).all(touches)
-            && self.is_admissible(&sticking.joints, &sticking.answer, self.slack);
+        // Contacts that pull do not part on the way: that is for the conditions of what is found.
+        let found_from = |first: PerBlock<Joint>| {
+            let sticking = self.follow(first, |next| next.sticks())?;
+            self.is_admissible(&sticking.joints, &sticking.answer, self.slack).then_some(sticking)
+        };
+        let sticking = found_from(PerBlock::from_slice(first)).or_else(|| found_from(self.first()))?;
         let is_second = |other: &Solution| {
             self.is_other(&sticking.answer, &other.answer) && self.is_clear(&other.joints, &other.answer)
         };
-        let is_ambiguous = holds && found.is_some_and(is_second);
-        holds.then_some(Solution { is_ambiguous, ..sticking })
+        Some(Solution { is_ambiguous: found.is_some_and(is_second), ..sticking })
     }
 
     fn largest_coefficient(&self) -> f64 {
@@ -206,12 +208,13 @@ impl<'a> Search<'a> {
 
     /// With less kinetic than static friction, several sets of slides may be admissible: that with the fewest slides that begin holds, then that with the least
     /// energy of the change. If there are several, the instant is ambiguous.
-    fn with_fewest_slides(&self, mut found: Solution) -> Solution {
+    fn with_fewest_slides(&self, found: Solution) -> Solution {
         let Coefficients { fixed, kinetic } = self.friction;
         let begun = |joints: &[Joint]| (0..joints.len()).filter(|i| self.begins_to_slide(joints, *i)).count();
         if fixed == kinetic {
             return found;
         }
+        let mut found = self.without_still_slides(found);
         let solution = |joints: PerBlock<Joint>| {
             let answer = self.answer(&joints)?;
             self.is_clear(&joints, &answer).then_some(Solution { joints, answer, is_ambiguous: true })
@@ -228,6 +231,25 @@ impl<'a> Search<'a> {
                 Some(_) => return Solution { is_ambiguous: true, ..found },
                 None => return found,
             }
+        }
+    }
+
+    /// The same motion with those slides that begin without an acceleration sticking, where static friction exceeds kinetic: a contact that moves with one of
+    /// the same coefficients below it needs no more than kinetic friction.
+    fn without_still_slides(&self, found: Solution) -> Solution {
+        let is_still = |i: &usize| {
+            self.begins_to_slide(&found.joints, *i)
+                && self.friction.kinetic[*i] < self.friction.fixed[*i]
+                && found.answer.motion.slide[*i].abs() <= self.slack.linear
+        };
+        let mut joints = found.joints.clone();
+        for i in (0..joints.len()).filter(is_still) {
+            joints[i] = self.with_slip(i, joints[i], Slip::Sticks);
+        }
+        let answer = (joints != found.joints).then(|| self.answer(&joints)).flatten();
+        match answer.filter(|answer| self.is_admissible(&joints, answer, self.slack)) {
+            Some(answer) => Solution { joints, answer, ..found },
+            None => found,
         }
     }
 

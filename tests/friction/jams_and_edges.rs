@@ -189,3 +189,49 @@ fn decaying_chatter_of_many_blocks_has_an_end() {
         }
     }
 }
+
+/// The states at an event, as text.
+fn states_at(response: &Response, t: f64, within: f64) -> Vec<String> {
+    let there = response.events.iter().filter(|event| (event.t - t).abs() < within);
+    there.filter_map(|event| event.states_after.as_ref()).map(ToString::to_string).collect()
+}
+
+/// A contact that slides tips, found a little early in a long step: another contact began a slide that need not begin, and only where the run went on long
+/// enough for that step.
+#[test]
+fn a_tip_of_a_contact_that_slides_on_begins_no_slide_elsewhere() {
+    let mut scene = scene(include_str!("jams_and_edges/tip.toml"));
+    for t_end in [0.7, 0.75, 1.2] {
+        scene.options.t_end = t_end;
+        assert_eq!(states_at(&run(&scene), 0.691_017_74, 1e-7), ["(-,0,-<u,+>u,0>)"], "{t_end}");
+    }
+}
+
+/// The impact in which nothing slides has impulses that press and lie in their cones: it comes before one in which a contact parts.
+#[test]
+fn an_impact_that_sticks_comes_before_one_that_parts() {
+    let response = run(&scene(include_str!("jams_and_edges/press.toml")));
+    assert_eq!(states_at(&response, 0.432_250_726_94, 1e-10), ["(-,-,0,f)"]);
+}
+
+/// Flat drums of equal coefficients on a base that slides move with it: no more than kinetic friction is asked of them, less than static. They were said to
+/// slide without an acceleration, and rounding decided which of them slid when the base stopped.
+#[test]
+fn drums_above_a_slide_of_the_same_coefficients_stick() {
+    for blocks in 2..=6 {
+        let text = format!(
+            "friction = {{ static = 0.3, kinetic = 0.2 }}\n[column]\nblocks = {blocks}\nhalf_width = 2.0\nhalf_height = 1.0\n\
+             [excitation.horizontal]\nkind = \"rectangular\"\namplitude_g = 0.4\nduration = 0.3\n[solver]\nt_end = 2.0\n"
+        );
+        for method in [Method::Auto, Method::Dop853] {
+            let response = run_by(method, &text);
+            let sliding = response.sliding.as_ref().expect("friction");
+            assert_eq!(states_at(&response, 0.0, 1e-9), [format!("(0<{})", ",0".repeat(blocks - 1))], "{method:?}");
+            let [base, others @ ..] = &sliding.way_slid[..] else { unreachable!("there are blocks") };
+            // Newmark's way: 0.5 (A g) t² (A/μ - 1) with A = 0.4, μ = 0.2, t = 0.3 s.
+            assert!((base - 0.5 * 0.4 * 9.81 * 0.09).abs() < 1e-10, "{base}");
+            assert!(others.iter().all(|way| *way == 0.0), "{others:?}");
+            assert!(sliding.times[1..].iter().all(|times| times.sliding == 0.0), "{method:?}");
+        }
+    }
+}

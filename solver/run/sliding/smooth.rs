@@ -17,8 +17,8 @@ use crate::scene::DynamicsSource;
 use rocking_ground::Segment;
 use std::cell::OnceCell;
 
-/// Forces beyond this multiple of what weight, ground and rates account for are a jam where no step can be taken. Rounding ends steps that follow forces to infinity early, in one
-/// column of unequal blocks at 560. If this were smaller, steps that fail for another reason would be taken for a jam.
+/// Forces beyond this multiple of what weight, ground and rates account for are a jam where no step can be taken. Rounding ends steps that follow forces
+/// to infinity early, in one column of unequal blocks at 560. If this were smaller, steps that fail for another reason would be taken for a jam.
 const FACTOR_WITHOUT_STEP: f64 = 1e2;
 
 /// Generated equations of a set of states.

@@ -262,14 +262,16 @@ impl<'p> PendingTransition<'p> {
         Ok(self.search(&self.touching()).joints_an_instant_later(&solution))
     }
 
-    /// Admissible states other than those before a guard's zero. With less kinetic than static friction, slides are admissible that need not begin: a guard
-    /// whose state sticks begins none, if that state is admissible at the zero.
+    /// Admissible states other than those before a guard's zero. With less kinetic than static friction, slides are admissible that need not begin: if the
+    /// state that the guard names begins none and is admissible at the zero, it holds.
     fn other_than(&self, before: &Configuration, touch: &[Touch], hint: Option<(usize, Joint)>) -> Option<Solution> {
         let search = self.search(touch);
         let other = search.solve_otherwise(&before.joints)?;
         let slides = |(now, before): (&Joint, &Joint)| !now.sticks() && now.slip().is_some() && before.sticks();
         let begins = other.joints.iter().zip(&before.joints).any(slides);
-        let named = hint.filter(|(_, joint)| begins && joint.sticks());
+        let begins_none =
+            |(interface, joint): &(usize, Joint)| joint.sticks() || joint.slip() == before.joints[*interface].slip();
+        let named = hint.filter(|named| begins && begins_none(named));
         let released = named.and_then(|(interface, joint)| search.released(&before.joints, interface, joint));
         Some(released.unwrap_or(other))
     }
