@@ -180,7 +180,7 @@ impl Failure {
         let source_text = match places(&error).first() {
             Some(SceneFileError::Scene { file, .. }) => std::fs::read_to_string(file)
                 .ok()
-                .filter(|text| text.lines().all(|line| line.len() <= LONGEST_SHOWN))
+                .filter(|text| is_short_around(text, places(&error)))
                 .map(|text| NamedSource::new(shown(file), same_length(&text)).with_language("toml")),
             _ => None,
         };
@@ -198,6 +198,18 @@ impl Failure {
             2
         }
     }
+}
+
+/// Whether the lines of faults, and those beside them, which are shown as well, are short enough to be read.
+fn is_short_around(text: &str, faults: &[SceneFileError]) -> bool {
+    let lines: Vec<&str> = text.lines().collect();
+    let beside = |line: usize| line.saturating_sub(2)..(line + 1).min(lines.len());
+    faults.iter().all(|fault| match fault {
+        SceneFileError::Scene { line, .. } => {
+            lines.get(beside(*line)).is_some_and(|lines| lines.iter().all(|line| line.len() <= LONGEST_SHOWN))
+        }
+        _ => true,
+    })
 }
 
 /// The faults of a scene file.

@@ -437,3 +437,18 @@ fn a_kind_that_is_misspelt_is_guessed() {
         folder.refused("check scene.toml", &[&format!("did you mean `{guess}`?")]);
     }
 }
+
+/// A fault is shown with its lines also beside a record whose samples stand in one long line.
+#[test]
+fn a_long_line_elsewhere_hides_no_fault() {
+    let samples = vec!["0.125"; 1000].join(", ");
+    let scene = |below: &str| {
+        format!(
+            "[column]\nblocks = 1\nhalf_width = 0.2\nhalf_height = 1.0\n[excitation.horizontal]\nkind = \"record\"\n\
+             accel = [{samples}]\ndt = 0.01\n\n{below}"
+        )
+    };
+    refused(&scene("[solver]\nt_endd = 5.0\n"), &["line 11", "did you mean `t_end`?", "t_endd = 5.0", "here"]);
+    let told = refused(&scene("").replace("dt = 0.01", "dtt = 0.01"), &["line 8", "did you mean `dt`?"]);
+    assert!(told.len() < 1000, "{told}");
+}

@@ -191,3 +191,27 @@ fn undecided_runs_bound_the_curve() {
     let (_, [median, dispersion, ..]) = fitted(&table.replace("not-determined", "overturns"));
     assert_eq!([median, dispersion], [all, spread_of_all]);
 }
+
+/// Runs that are not there are named, in whatever order the others stand; several studies in one table have the same numbers.
+#[test]
+fn missing_runs_are_named() {
+    let folder = Folder::with("unused.toml", "");
+    let mut rows = Vec::new();
+    for (index, (record, level)) in (0..4).flat_map(|record| (1..=5).map(move |level| (record, level))).enumerate() {
+        let outcome = if level > 3 + record % 2 { "overturns" } else { "rocks" };
+        rows.push(format!("{index},r{record},1.0,0.{level},{outcome},0.1"));
+    }
+    let warned = |rows: &[String]| {
+        folder.write("t.csv", format!("index,record,scale,pgv,outcome,first_uplift\n{}\n", rows.join("\n")));
+        folder.says("fragility t.csv --state overturned --replicates 0").1
+    };
+    assert_eq!(warned(&rows), "");
+    let reversed: Vec<String> = rows.iter().rev().cloned().collect();
+    assert_eq!(warned(&reversed), "");
+    let other = |row: &String| row.replace(",r", ",s");
+    let pooled: Vec<String> = rows.iter().cloned().chain(rows.iter().map(other)).collect();
+    assert_eq!(warned(&pooled), "");
+    let cut = [&rows[..4], &rows[7..12], &rows[13..]].concat();
+    assert_eq!(warned(&cut), "warning: runs 4 to 6 are missing, and 1 more\n");
+    assert_eq!(warned(&[&rows[..4], &rows[5..]].concat()), "warning: run 4 is missing\n");
+}

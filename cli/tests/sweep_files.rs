@@ -428,9 +428,9 @@ fn a_damaged_digest_is_refused() {
     folder.succeeds("merge m.csv 1.csv 2.csv --sweep sweep.toml");
 }
 
-/// A table takes the place of no scene and no record, whether or not the sweep reads it.
+/// A table takes the place of no file that ends as scenes and PEER's records do, whether or not the sweep reads it.
 #[test]
-fn a_table_takes_no_name_of_a_scene_or_a_record() {
+fn a_table_takes_no_name_of_a_scene_or_a_record_of_peer() {
     let folder = folder(SWEEP);
     for name in ["other.toml", "other.AT2"] {
         folder.write(name, "precious");

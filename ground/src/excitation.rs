@@ -37,7 +37,7 @@ impl Excitation {
             let Some(motion) = motion else { continue };
             for record in records(motion) {
                 let own = record.warnings().iter().cloned().chain(misused(record, direction));
-                warnings.extend(own.map(|warning| format!("{}: {warning}", called(record))));
+                warnings.extend(own.map(|warning| format!("{}: {warning}", called(record, name))));
             }
             warnings.extend(cut_at_start(name, motion));
         }
@@ -63,11 +63,11 @@ impl Excitation {
         let is_odd = apart.abs() > horizontal.dt().max(vertical.dt()) && apart.abs() < LONGEST_RECORDING;
         is_odd.then(|| {
             format!(
-                "{}: by the times in the files it is {:.3} s {} than here beside the horizontal {}; give each a `start` of its own, in [excitation.horizontal] and [excitation.vertical], or trim one",
-                called(vertical),
+                "{}: by the times in the files it is {:.3} s {} than here beside {}; give each a `start` of its own, in [excitation.horizontal] and [excitation.vertical], or trim one",
+                called(vertical, "vertical"),
                 apart.abs(),
                 if apart > 0.0 { "later" } else { "earlier" },
-                called(horizontal)
+                called(horizontal, "horizontal")
             )
         })
     }
@@ -122,10 +122,10 @@ impl Excitation {
     }
 }
 
-/// A record by the name of its file, if it has one.
-fn called(record: &Record) -> String {
+/// A record by the name of its file, or else by its component.
+fn called(record: &Record, component: &str) -> String {
     let file = &record.source().file;
-    if file.is_empty() { "the record".into() } else { format!("record {file}") }
+    if file.is_empty() { format!("the {component} record") } else { format!("record {file}") }
 }
 
 /// The records of a motion.

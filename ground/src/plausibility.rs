@@ -32,7 +32,7 @@ pub(crate) fn doubtful_samples(accel: &[f64], unit: AccelerationUnit, gravity: f
     let peak = largest / gravity;
     let mut warnings = Vec::new();
     if peak == 0.0 {
-        warnings.push("all samples are zero: is another column the acceleration?".into());
+        warnings.push("all samples are zero: is something else the acceleration?".into());
     }
     if peak > LARGEST_PEAK_IN_G {
         warnings.push(format!("a peak of {peak:.1} g is hardly one; are the samples in another unit than {unit}?"));
@@ -49,6 +49,6 @@ pub(crate) fn doubtful_samples(accel: &[f64], unit: AccelerationUnit, gravity: f
 
 /// Warning about a sampling interval `[s]`.
 pub(crate) fn doubtful_interval(dt: f64) -> Option<String> {
-    let doubt = "is hardly one; are the times in another unit than s, or numbers of rows?";
+    let doubt = "is hardly one; is it in another unit than s, or a number of rows?";
     (!PLAUSIBLE_INTERVALS.contains(&dt)).then(|| format!("a sampling interval of {dt} s {doubt}"))
 }

@@ -142,7 +142,8 @@ impl Record {
     }
 
     /// A record of samples in a unit, one every `dt [s]` from time zero; one g is `gravity [m/s²]`. As of a file, what is hardly a record of an earthquake
-    /// is a [warning](Record::warnings): a peak above 20 g, a sample of -999, an interval above 0.1 s in a hundred samples and more.
+    /// is a [warning](Record::warnings): a peak above 20 g, a sample of -999, samples that are all zero; and in a hundred samples and more an interval outside
+    /// 1e-4 to 0.1 s, or a last sample of more than a tenth of the peak.
     ///
     /// ```
     /// use rocking_ground::{AccelerationUnit, Record};

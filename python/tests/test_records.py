@@ -143,7 +143,7 @@ def test_samples_of_an_array_are_doubted_as_those_of_a_file(tmp_path: Path) -> N
     assert wrong.warnings == rk.Record.read(tmp_path / "wrong.csv").warnings and "hardly one" in wrong.warnings[0]
     column = rk.Column.prisms(1, half_width=0.4, half_height=1.56)
     for motion in (wrong, {"kind": "record", "accel": (300 * waves).tolist(), "dt": 0.01}):
-        assert any("the record: a peak of" in warning for warning in rk.simulate(column, motion, t_end=1).warnings)
+        assert any("the horizontal record: a peak of" in warning for warning in rk.simulate(column, motion, t_end=1).warnings)
     right = rk.Record(300 * waves, dt=0.01, units="cm/s2")
     assert right.warnings == [] and np.allclose(right.accel, 3 * waves, rtol=1e-15, atol=0)
     in_g = {"kind": "record", "accel": waves.tolist(), "dt": 0.01, "units": "g"}

@@ -100,7 +100,7 @@ impl SlidingReport {
         let times = |list: &[f64]| list.first().map_or(0.0, |first| *first);
         if !self.ambiguous.is_empty() {
             warnings.push(format!(
-                "at {} instant(s), the first at t = {:.4} s, friction admits several motions: the one with the fewest changes was taken, in an impact the one with the least energy",
+                "at {} instant(s), the first at t = {:.4} s, friction admits several motions, of which one was taken by the rules of the model (section 16 of its chapter)",
                 self.ambiguous.len(),
                 times(&self.ambiguous)
             ));

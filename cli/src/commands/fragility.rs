@@ -81,7 +81,7 @@ pub struct Runs {
     /// Name of the measure: the heading of its column, or the last part of that heading if only this part is a measure.
     pub measure: String,
     pub runs: Vec<Observation>,
-    /// Warnings: columns that are neither the record nor the measure, and whose values differ; runs that were cut.
+    /// Warnings: columns that are neither the record nor the measure, and whose values differ; runs that were cut; runs that are missing.
     warnings: Vec<String>,
     /// Number of the columns of peaks, one for each block.
     peaks: usize,
@@ -96,14 +96,10 @@ pub fn read(table: &Path, measure: Option<&str>, conditions: &[(String, String)]
     let columns = Columns::of(found.header.iter().map(String::from).collect(), measure).map_err(refused)?;
     let conditions = columns.conditions(conditions).map_err(refused)?;
     let mut pooling = Pooling::new(&columns);
-    let (mut runs, mut due, mut gap) = (Vec::new(), 0, None);
+    let (mut runs, mut numbers) = (Vec::new(), Vec::new());
     for (number, row) in found.rows.enumerate() {
         let row = row.map_err(at(Failure::Study, table))?;
-        if let Some(index) = columns.index(&row) {
-            // Tables of several studies may follow each other.
-            gap = gap.or((index > due).then_some([number + 1, index, due]));
-            due = index + 1;
-        }
+        numbers.extend(columns.index(&row));
         if conditions.iter().all(|(place, value)| is_value(&row[*place], value)) {
             let run = pooling.add(&row, number).and_then(|()| columns.observation(&row, number));
             runs.push(run.map_err(|problem| refused(format!("row {}{problem}", number + 1)))?);
@@ -119,10 +115,23 @@ pub fn read(table: &Path, measure: Option<&str>, conditions: &[(String, String)]
     let name = &columns.names[columns.level];
     let measure = if is_measure(name) || measure.is_some() { name.clone() } else { last_part(name) };
     let mut warnings = pooling.warnings();
-    warnings
-        .extend(gap.map(|[row, index, due]| format!("row {row} is run {index} where {due} is due: rows are missing")));
+    warnings.extend(missing(numbers));
     let (peaks, has_slides) = (columns.peaks.len(), !columns.slides.is_empty());
     Ok(Runs { measure, runs, warnings, peaks, has_slides })
+}
+
+/// The warning that numbers of runs, in any order and perhaps of several studies, have gaps; `None` if they have none.
+fn missing(mut numbers: Vec<usize>) -> Option<String> {
+    numbers.sort_unstable();
+    numbers.dedup();
+    let (place, next) = numbers.iter().enumerate().find(|(place, number)| place != *number)?;
+    let several = numbers[numbers.len() - 1] + 1 - numbers.len();
+    let first = if next - place == 1 {
+        format!("run {place} is missing")
+    } else {
+        format!("runs {place} to {} are missing", next - 1)
+    };
+    Some(if several > next - place { format!("{first}, and {} more", several - (next - place)) } else { first })
 }
 
 impl Columns {

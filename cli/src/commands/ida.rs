@@ -6,7 +6,7 @@ use crate::arguments;
 use crate::commands::fragility::{self, Conclusions};
 use crate::commands::plot::write;
 use crate::commands::spectrum::beside;
-use crate::commands::sweep::{OUTCOME, TIME, TableDigest, Tally, already_there, has_result, threads};
+use crate::commands::sweep::{OUTCOME, TIME, TableDigest, Tally, already_there, fits, has_result, threads};
 use crate::error::{Failure, at};
 use crate::output;
 use crate::plot::{self, Figure, Paper};
@@ -226,7 +226,7 @@ fn point(ida: &Ida, index: usize) -> Vec<String> {
 /// Whether a row may be that of a run of a study.
 fn is_row(ida: &Ida, columns: &[Column], row: &StringRecord, index: usize) -> bool {
     let outcome = columns.iter().zip(row).find(|(column, _)| column.name == OUTCOME).map_or("", |(_, cell)| cell);
-    point(ida, index).iter().zip(row).all(|(due, cell)| due == cell) && has_result(row, outcome)
+    point(ida, index).iter().zip(row).all(|(due, cell)| due == cell) && fits(columns, row) && has_result(row, outcome)
 }
 
 /// A run as `columns` cells.

@@ -145,9 +145,14 @@ pub fn is_row(sweep: &Sweep, columns: &[Column], row: &StringRecord, point: usiz
     let is_timed = sweep.ask != Ask::Overturns && cell(OUTCOME) == Fate::Overturns.name();
     point < sweep.len()
         && of_axes().all(is_setting)
-        && cells().all(|(column, cell)| column.takes(cell))
+        && fits(columns, row)
         && has_result(row, cell(OUTCOME))
         && is_timed != cell(TIME).is_empty()
+}
+
+/// Whether each cell of a row fits its column.
+pub fn fits(columns: &[Column], row: &StringRecord) -> bool {
+    columns.iter().zip(row).all(|(column, cell)| column.takes(cell))
 }
 
 /// Whether a row has an outcome, or an error and no outcome.

@@ -1,7 +1,6 @@
 //! Band of angles: the range of the angles of a run and its companions, behind the curves of the run. The band starts where the runs part.
 
-use super::curve::Frame;
-use super::curve::Point;
+use super::curve::{Frame, Point};
 use super::drawn_run::{DrawnRun, FALL};
 use super::sheet::{Anchor, Panel, Sheet, patch};
 use super::style::{self, Stroke};

@@ -489,7 +489,6 @@ fn tidy(value: f64) -> f64 {
     (value * 100.0).round() / 100.0 + 0.0
 }
 
-/// Width of the part of a text before its anchor `[px]`; `width` is that of the whole.
 /// The patch under a text on paper.
 pub fn patch(at: Point, text: &str, size: u32, anchor: Anchor) -> Frame {
     let width = text_width(text, size);
@@ -504,6 +503,7 @@ pub fn patch_upwards(at: Point, text: &str, size: u32, anchor: Anchor) -> Frame 
     Frame { left: at[0] - size + 1.0, top, width: size + 3.0, height: height + 6.0 }
 }
 
+/// Width of the part of a text before its anchor `[px]`; `width` is that of the whole.
 fn behind(anchor: Anchor, width: f64) -> f64 {
     match anchor {
         Anchor::Start => 0.0,

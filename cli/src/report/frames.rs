@@ -273,7 +273,10 @@ fn head(results: &Results, patterns: &[&Pattern]) -> serde_json::Value {
     let patterns: Vec<_> = patterns.iter().map(pattern).collect();
     let fills: Vec<&str> = (0..=column.len()).map(fill).collect();
     // The player's status line names each event.
-    let event = |event: &Event| json!({ "t": event.t, "kind": event.kind, "at": interfaces(event), "mode": event.mode, "mirrored": event.mirrored });
+    let event = |event: &Event| {
+        let Event { t, kind, mode, mirrored, .. } = event;
+        json!({ "t": t, "kind": kind, "at": interfaces(event), "mode": mode, "mirrored": mirrored })
+    };
     let events: Vec<_> = results.response.events.iter().map(event).collect();
     json!({
         "blocks": sizes, "round": round, "contact": contact, "gravity": column.gravity(), "fills": fills,

@@ -77,10 +77,7 @@ fn judge_sliding(results: &Results, report: &SlidingReport) -> Verdict {
         None => {}
     }
     for (instants, what) in [
-        (
-            &report.ambiguous,
-            "friction admits several motions, and the one with the fewest changes was taken, in an impact the one with the least energy",
-        ),
+        (&report.ambiguous, "friction admits several motions, of which one was taken by the rules of the model"),
         (&report.jammed, "friction admits no smooth motion: the blocks jam, and strike"),
     ] {
         if !instants.is_empty() {

@@ -66,7 +66,7 @@ impl FragilityOptions {
         if (1..least).contains(&replicates) {
             let percent = (1e5 * confidence).round() / 1e3;
             let remedy = format!("give 0 for no bands, or at least {least}");
-            return wrong("replicates", format!("{replicates} have no bands of {percent} %"), remedy);
+            return wrong("replicates", format!("{replicates} set(s) have no bands of {percent} %"), remedy);
         }
         Ok(())
     }

@@ -105,7 +105,7 @@ pub struct Grid {
 
 /// The refusal of a table in which points are missing.
 pub fn missing() -> NoSpectrum {
-    NoSpectrum::NoTable("points are missing".into())
+    NoSpectrum::NoTable("points are missing, and others are there twice, as of axes that are distributions".into())
 }
 
 /// Share of some panels whose class is `wanted`, by the areas of the cells of each panel.

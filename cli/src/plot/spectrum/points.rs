@@ -68,7 +68,8 @@ impl Quantity {
         for cell in row.iter().skip(self.first).take(self.entries) {
             self.values.push(match cell.parse::<f64>() {
                 Ok(number) => known.unwrap_or(number.abs()),
-                Err(_) if cell.is_empty() => f64::NAN,
+                // `NA` where other programs have written the table.
+                Err(_) if ["", "NA"].contains(&cell) => f64::NAN,
                 Err(_) => return Err(cell.into()),
             });
         }
@@ -163,7 +164,8 @@ impl Points {
 
     /// An entry of a legend on the runs that t_end cuts; `None` if there are none.
     pub fn cut(&self) -> Option<String> {
-        (self.truncated > 0).then(|| format!("{} of {} runs are cut at t_end", self.truncated, self.len()))
+        let are = if self.truncated == 1 { "is" } else { "are" };
+        (self.truncated > 0).then(|| format!("{} of {} runs {are} cut at t_end", self.truncated, self.len()))
     }
 
     /// A sentence for captions on the runs that t_end cuts; empty if there are none.
