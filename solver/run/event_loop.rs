@@ -95,7 +95,7 @@ pub(crate) fn event_loop<L: Limits>(
             Err(error) => return Err(error),
         };
         recorder.read(problem, &mut stretch);
-        if L::ARE_THERE && !limits.hold(recorder) {
+        if L::ARE_THERE && (!limits.hold(recorder) || limits.fail_narrowly(recorder, problem, &mut stretch)) {
             return Ok(Leaving::Beyond(rollback.beyond(problem, &mut stretch, mode, recorder, [spare, after])));
         }
         let Some(ended) = stretch.ended else {

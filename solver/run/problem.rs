@@ -25,6 +25,8 @@ pub(crate) struct Problem<'a> {
     pub may_stand: bool,
     /// Whether the largest gaps are recorded.
     pub records_gaps: bool,
+    /// Number of panels in which contact forces are read, as a multiple of the usual one.
+    pub panels: f64,
 }
 
 /// Work that a run leaves out because its answer is the same without it. By default that is all of it; benchmarks measure the worth of each item.
@@ -84,7 +86,13 @@ impl<'a> Problem<'a> {
             tolerance: Tolerance { rtol: options.rtol, atol: options.atol },
             may_stand: outcome_bounds.is_some() && ground.last().is_some_and(Segment::is_quiet),
             records_gaps: false,
+            panels: 1.0,
         }
+    }
+
+    /// The problem with contact forces read in this many times as many panels.
+    pub fn with_panels(&self, panels: f64) -> Problem<'a> {
+        Problem { kappa: self.kappa.clone(), panels, ..*self }
     }
 
     /// Ground motion on a segment at a time `[s]`. At a jump, the segment decides which of the two accelerations holds.

@@ -324,9 +324,8 @@ impl Phase {
         let turned = step.h * rates.fold(0.0f64, |largest, rate| largest.max(rate.abs()));
         let segment = &problem.ground[self.segment];
         let radians = step.h * segment.horizontal.omega().max(segment.vertical.omega());
-        let panels = (PANELS_PER_RADIAN_TURNED * turned + PANELS_PER_RADIAN_OF_GROUND * radians)
-            .ceil()
-            .clamp(1.0, MOST_PANELS) as usize;
+        let usual = (PANELS_PER_RADIAN_TURNED * turned + PANELS_PER_RADIAN_OF_GROUND * radians).ceil();
+        let panels = (problem.panels * usual.clamp(1.0, MOST_PANELS)) as usize;
         let at = |place: f64| place / panels as f64;
         let (mut start, mut end) = (self.forces.start.forces.clone(), last.clone());
         for panel in 0..panels {

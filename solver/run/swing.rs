@@ -205,7 +205,8 @@ impl Phase {
         if from == to {
             return;
         }
-        let panels = (PANELS_PER_RADIAN_TURNED * (to - from).abs()).ceil().max(1.0) as usize;
+        let usual = (PANELS_PER_RADIAN_TURNED * (to - from).abs()).ceil().max(1.0);
+        let panels = (problem.panels * usual) as usize;
         let mut start = if from == course.start {
             self.evaluate_start_forces(problem);
             self.forces.start.forces.clone()
