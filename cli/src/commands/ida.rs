@@ -166,7 +166,7 @@ fn asked(table: &Path) -> Result<Option<(Vec<LimitState>, FragilityOptions)>, Fa
         if let Some(text) = seed.map(cell) {
             options.seed = text.parse().map_err(|_| wrong("seed", text))?;
         }
-        options.check().map_err(|error| refused(format!("row {}: {} = {}", number + 1, error.key, error.problem)))?;
+        options.check().map_err(|error| refused(format!("row {}: {}", number + 1, error.problem)))?;
     }
     if has_curves && !has_bands {
         options.replicates = 0;

@@ -35,11 +35,11 @@ pub struct FragilityOptions {
 
 /// An option of a fragility that is out of range.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{key} = {problem}; {remedy}")]
+#[error("{problem}; {remedy}")]
 pub struct OptionOutOfRange {
     /// Name of the option.
     pub key: &'static str,
-    /// Its value, and what is wrong with it.
+    /// What is wrong with it, with its value.
     pub problem: String,
     /// What to give instead.
     pub remedy: String,
@@ -56,17 +56,17 @@ impl FragilityOptions {
         let wrong = |key, problem, remedy| Err(OptionOutOfRange { key, problem, remedy });
         if !(confidence > 0.0 && confidence < 1.0) {
             let remedy = "give a share between 0 and 1, e.g. 0.9".into();
-            return wrong("confidence", format!("{confidence} is out of range"), remedy);
+            return wrong("confidence", format!("confidence = {confidence} is out of range"), remedy);
         }
         if replicates > MOST_REPLICATES {
-            return wrong("replicates", format!("{replicates} are too many"), "give at most 1e6".into());
+            return wrong("replicates", format!("replicates = {replicates} are too many"), "give at most 1e6".into());
         }
         // Without the rounding of shares such as 0.9.
         let least = (2.0 / (1.0 - confidence) - 1e-6).ceil() as usize;
         if (1..least).contains(&replicates) {
             let percent = (1e5 * confidence).round() / 1e3;
             let remedy = format!("give 0 for no bands, or at least {least}");
-            return wrong("replicates", format!("{replicates} set(s) have no bands of {percent} %"), remedy);
+            return wrong("replicates", format!("{replicates} replicate(s) have no bands of {percent} %"), remedy);
         }
         Ok(())
     }
