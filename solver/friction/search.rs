@@ -8,9 +8,10 @@
 //! ```
 //!
 //! A slide that begins has `ε ü >= 0` besides. In an impact velocities and impulses take the places of accelerations and forces. The search begins with what
-//! sticks and lets each violated condition name the next state. Where it goes in circles, it begins anew from the solution of a complementarity problem ([`super::complementarity`]). Where that fails as
-//! well, and where a few blocks of large coefficients may have several answers, all combinations are tried: the admissible one with the fewest changes
-//! holds, in an impact the one with the least energy of the change. What all sticks comes before slides that are admissible as well.
+//! sticks and lets each violated condition name the next state. Where it goes in circles, it begins anew from the solution of a complementarity problem
+//! ([`super::complementarity`]). Where that fails as well, and where a few blocks of large coefficients may have several answers, all combinations are
+//! tried: the admissible one with the fewest changes holds, in an impact the one with the least energy of the change. States in which everything sticks
+//! come before slides that are admissible as well.
 //!
 //! The conditions are in `search/conditions.rs`, jams and restitution in `search/impact.rs`, corners that coincide in `search/instant_later.rs`.
 
