@@ -8,6 +8,7 @@ use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
 use std::fmt::Write as _;
+use toml::de::{DeTable, DeValue};
 
 /// What stands at a key.
 enum Found<'py> {
@@ -178,32 +179,41 @@ fn quoted(text: &str) -> String {
     quoted + "\""
 }
 
-/// The dictionary of TOML text.
+/// The dictionary of TOML text, in the order of the text: axes have one.
 #[pyfunction]
 pub fn from_toml<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyDict>> {
-    let read: toml::Table = text.parse().map_err(|error: toml::de::Error| PyValueError::new_err(error.to_string()))?;
-    dictionary(py, &read)
+    let read = DeTable::parse(text).map_err(|error| PyValueError::new_err(error.to_string()))?;
+    dictionary(py, read.into_inner())
 }
 
-fn dictionary<'py>(py: Python<'py>, read: &toml::Table) -> PyResult<Bound<'py, PyDict>> {
+fn dictionary<'py>(py: Python<'py>, read: DeTable<'_>) -> PyResult<Bound<'py, PyDict>> {
+    let mut entries: Vec<_> = read.into_iter().collect();
+    entries.sort_by_key(|(key, _)| key.span().start);
     let keys = PyDict::new(py);
-    for (key, value) in read {
-        keys.set_item(key, python(py, value)?)?;
+    for (key, value) in entries {
+        keys.set_item(key.into_inner(), python(py, value.into_inner())?)?;
     }
     Ok(keys)
 }
 
-fn python<'py>(py: Python<'py>, value: &toml::Value) -> PyResult<Bound<'py, PyAny>> {
+fn python<'py>(py: Python<'py>, value: DeValue<'_>) -> PyResult<Bound<'py, PyAny>> {
+    let no_number = |text: &str| PyValueError::new_err(format!("`{text}` is no number that fits"));
     Ok(match value {
-        toml::Value::String(text) => text.into_pyobject(py)?.into_any(),
-        toml::Value::Integer(number) => number.into_pyobject(py)?.into_any(),
-        toml::Value::Float(number) => number.into_pyobject(py)?.into_any(),
-        toml::Value::Boolean(flag) => flag.into_pyobject(py)?.to_owned().into_any(),
-        toml::Value::Datetime(time) => time.to_string().into_pyobject(py)?.into_any(),
-        toml::Value::Array(items) => {
-            let items = items.iter().map(|item| python(py, item)).collect::<PyResult<Vec<_>>>()?;
+        DeValue::String(text) => text.into_pyobject(py)?.into_any(),
+        DeValue::Integer(number) => {
+            let whole = i64::from_str_radix(number.as_str(), number.radix());
+            whole.map_err(|_| no_number(number.as_str()))?.into_pyobject(py)?.into_any()
+        }
+        DeValue::Float(number) => {
+            let size: f64 = number.as_str().parse().map_err(|_| no_number(number.as_str()))?;
+            size.into_pyobject(py)?.into_any()
+        }
+        DeValue::Boolean(flag) => flag.into_pyobject(py)?.to_owned().into_any(),
+        DeValue::Datetime(time) => time.to_string().into_pyobject(py)?.into_any(),
+        DeValue::Array(items) => {
+            let items = items.into_iter().map(|item| python(py, item.into_inner())).collect::<PyResult<Vec<_>>>()?;
             PyList::new(py, items)?.into_any()
         }
-        toml::Value::Table(table) => dictionary(py, table)?.into_any(),
+        DeValue::Table(table) => dictionary(py, table)?.into_any(),
     })
 }
