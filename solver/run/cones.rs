@@ -125,7 +125,9 @@ impl Limits for Cones<'_> {
             let mut demands = demands.iter().zip(coefficients).enumerate();
             demands.any(|(i, (demand, most))| !self.is_within(i, factor * demand, *most, gaps))
         };
+        // The record has the largest demands of all stretches so far.
         exceeds(record.friction_demand(), 1.0 + NARROW)
+            && exceeds(&record.friction_demand_in(problem, 1.0, stretch), 1.0 + NARROW)
             && exceeds(&record.friction_demand_in(problem, FINER, stretch), 1.0)
     }
 
