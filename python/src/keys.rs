@@ -197,7 +197,7 @@ fn dictionary<'py>(py: Python<'py>, read: DeTable<'_>) -> PyResult<Bound<'py, Py
 }
 
 fn python<'py>(py: Python<'py>, value: DeValue<'_>) -> PyResult<Bound<'py, PyAny>> {
-    let no_number = |text: &str| PyValueError::new_err(format!("`{text}` is no number that fits"));
+    let no_number = |text: &str| PyValueError::new_err(format!("`{text}` is out of range"));
     Ok(match value {
         DeValue::String(text) => text.into_pyobject(py)?.into_any(),
         DeValue::Integer(number) => {

@@ -124,22 +124,6 @@ impl Recorder {
         }
     }
 
-    /// The largest friction demands of forces in a stretch, per interface, from this many times as many panels as are recorded.
-    pub fn friction_demand_in(&self, problem: &Problem, panels: f64, stretch: &mut Stretch) -> PerBlock<f64> {
-        let finer = problem.with_panels(panels);
-        let blocks = problem.scene.column.len();
-        let (mut demand, mut least) = (PerBlock::filled(0.0, blocks), PerBlock::filled(f64::INFINITY, blocks));
-        let mut read = |stretch: &mut Stretch| {
-            stretch.inside.forces(&finer, &mut |panel| raise_forces(panel, (&mut demand, &mut least), |_, _| ()));
-        };
-        if stretch.is_coarse {
-            stretch.inside.refine(problem, &mut read);
-        } else {
-            read(stretch);
-        }
-        demand
-    }
-
     /// Records the forces of a stretch.
     fn read_forces(&mut self, problem: &Problem, stretch: &mut Stretch) {
         if !problem.records_forces() {
@@ -276,6 +260,22 @@ impl Recorder {
         (response.work, response.used_generic) = (modes.take_work(), modes.used_generic());
         response
     }
+}
+
+/// The largest friction demands of forces in a stretch, per interface, from this many times as many panels as a recorder reads.
+pub(crate) fn friction_demand_in(problem: &Problem, panels: f64, stretch: &mut Stretch) -> PerBlock<f64> {
+    let finer = problem.with_panels(panels);
+    let blocks = problem.scene.column.len();
+    let (mut demand, mut least) = (PerBlock::filled(0.0, blocks), PerBlock::filled(f64::INFINITY, blocks));
+    let mut read = |stretch: &mut Stretch| {
+        stretch.inside.forces(&finer, &mut |panel| raise_forces(panel, (&mut demand, &mut least), |_, _| ()));
+    };
+    if stretch.is_coarse {
+        stretch.inside.refine(problem, &mut read);
+    } else {
+        read(stretch);
+    }
+    demand
 }
 
 /// Raises the largest friction demands and lowers the least normal forces, per interface, by those of a panel: extremes of the parabolas through its

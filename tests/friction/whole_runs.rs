@@ -490,6 +490,7 @@ fn a_contact_slips_where_its_demand_exceeds_friction_by_little() {
         let [first, others @ ..] = &first_slips[..] else { unreachable!("four runs") };
         for other in others {
             let agree = match (first, other) {
+                // A demand that exceeds its coefficient by 1e-5 at its crest is flat there: an error of 1e-9 moves the place by some 1e-7 s.
                 (Some(a), Some(b)) => (a - b).abs() < 1e-6,
                 (a, b) => a == b,
             };

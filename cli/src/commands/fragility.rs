@@ -134,14 +134,6 @@ fn missing(mut numbers: Vec<usize>) -> Option<String> {
     Some(if several > next - place { format!("{first}, and {} more", several - (next - place)) } else { first })
 }
 
-impl Columns {
-    /// The number of a run, in a table that numbers its runs.
-    fn index(&self, row: &StringRecord) -> Option<usize> {
-        let place = self.names.iter().position(|name| name == "index")?;
-        row[place].parse().ok()
-    }
-}
-
 /// What is gathered of all rows that are read, beside their runs.
 struct Pooling<'c> {
     columns: &'c Columns,
@@ -241,6 +233,12 @@ struct Columns {
 }
 
 impl Columns {
+    /// The number of a run, in a table that numbers its runs.
+    fn index(&self, row: &StringRecord) -> Option<usize> {
+        let place = self.names.iter().position(|name| name == "index")?;
+        row[place].parse().ok()
+    }
+
     /// The columns with these names; without a measure, the level is the one column that has the name of a measure. The error says what is wrong
     /// with the table.
     fn of(names: Vec<String>, measure: Option<&str>) -> Result<Columns, String> {

@@ -3,12 +3,12 @@
 //! A table does not say how many points the sweep has. Missing points at the end are therefore noticed only if the sweep is given as
 //! well. Shards of different sweeps differ in their columns, or in the digests beside the tables.
 
-use crate::commands::sweep::{OUTCOME, TableDigest, columns, digest_file, has_result, inputs_of, is_row};
+use crate::commands::sweep::{OUTCOME, TableDigest, columns, digest_file, inputs_of, is_row};
 use crate::commands::{fractiles, probability};
 use crate::error::{Failure, at};
 use crate::files::{folder_of, make_readable, temporary};
 use crate::output;
-use crate::table::column::{Column, Rows};
+use crate::table::column::{Column, Rows, has_result};
 #[cfg(feature = "parquet")]
 use crate::table::parquet;
 use crate::table::{Format, open};

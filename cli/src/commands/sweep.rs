@@ -11,7 +11,7 @@ use crate::output;
 use crate::plot::Paper;
 use crate::progress::Progress;
 use crate::table::Format;
-use crate::table::column::{Column, Kind};
+use crate::table::column::{Column, Kind, fits, has_result};
 use crate::table::growing::Growing;
 use crate::terminal::{json, print, warn_of_some};
 use crate::text::{printable, shown};
@@ -20,7 +20,7 @@ use rocking::Fate;
 use rocking::ground::read_file;
 use rocking::run_folder::Digest;
 use rocking::scene_file::Setting;
-use rocking::sweep::{Ask, Cell, CellKind, ERROR, Field, NOT_DETERMINED, Row, Sweep};
+use rocking::sweep::{Ask, Cell, CellKind, Field, NOT_DETERMINED, Row, Sweep};
 use serde::Serialize;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -148,18 +148,6 @@ pub fn is_row(sweep: &Sweep, columns: &[Column], row: &StringRecord, point: usiz
         && fits(columns, row)
         && has_result(row, cell(OUTCOME))
         && is_timed != cell(TIME).is_empty()
-}
-
-/// Whether each cell of a row fits its column.
-pub fn fits(columns: &[Column], row: &StringRecord) -> bool {
-    columns.iter().zip(row).all(|(column, cell)| column.takes(cell))
-}
-
-/// Whether a row has an outcome, or an error and no outcome.
-pub fn has_result(row: &StringRecord, outcome: &str) -> bool {
-    let is_fate = Fate::parse(outcome).is_some();
-    let has_error = row.iter().next_back().is_some_and(|error| !error.is_empty());
-    is_fate != has_error && (is_fate || outcome == ERROR)
 }
 
 /// How many rows an interrupted run had left, in words; nothing if none.

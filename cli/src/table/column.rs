@@ -1,6 +1,8 @@
 //! Columns of the table of a sweep or a study, and its rows as text.
 
 use csv::StringRecord;
+use rocking::Fate;
+use rocking::sweep::ERROR;
 
 /// Heading of the column of outcomes.
 pub const OUTCOME: &str = "outcome";
@@ -48,6 +50,18 @@ impl Column {
             Kind::Truth => cell.parse::<bool>().is_ok(),
         }
     }
+}
+
+/// Whether each cell of a row fits its column.
+pub fn fits(columns: &[Column], row: &StringRecord) -> bool {
+    columns.iter().zip(row).all(|(column, cell)| column.takes(cell))
+}
+
+/// Whether a row has an outcome, or an error and no outcome.
+pub fn has_result(row: &StringRecord, outcome: &str) -> bool {
+    let is_fate = Fate::parse(outcome).is_some();
+    let has_error = row.iter().next_back().is_some_and(|error| !error.is_empty());
+    is_fate != has_error && (is_fate || outcome == ERROR)
 }
 
 /// Rows of a table of either format, as text.
