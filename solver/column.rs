@@ -22,7 +22,7 @@ pub struct Block {
 }
 
 impl Block {
-    /// A homogeneous rectangle of this density `[kg/m²]`: `m = 4 ρ b h`, `I = m (b² + h²) / 3`.
+    /// A homogeneous rectangle of half-width `b [m]`, half-height `h [m]` and density `ρ [kg/m²]`: `m = 4 ρ b h`, `I = m (b² + h²) / 3`.
     ///
     /// ```
     /// let block = rocking::Block::rectangle(0.4, 1.0, 2.0);
@@ -34,7 +34,7 @@ impl Block {
         Block::with_mass(half_width, half_height, mass)
     }
 
-    /// A homogeneous rectangle of this mass `[kg]`.
+    /// A homogeneous rectangle of half-width `[m]`, half-height `[m]` and mass `[kg]`.
     pub fn with_mass(half_width: f64, half_height: f64, mass: f64) -> Block {
         Block::of_shape(Shape::Prism, [half_width; 2], half_height, mass)
     }
@@ -234,7 +234,7 @@ pub enum ColumnError {
     Slide {
         /// From 1, base first.
         interface: usize,
-        /// What was given.
+        /// What was given `[m]`.
         value: f64,
     },
     /// A block that does not stand on the one below.

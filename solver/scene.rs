@@ -117,19 +117,19 @@ pub enum Wanted {
 #[serde(default, deny_unknown_fields)]
 #[non_exhaustive]
 pub struct SolveOptions {
-    /// End of the run `[s]`.
+    /// End of the run `[s]`; default 10. A scene file without `t_end` gives [`Scene::end_of_free_swing`].
     pub t_end: f64,
-    /// Method of the smooth phases.
+    /// Method of the smooth phases; default [`Method::Auto`].
     pub method: Method,
-    /// Relative tolerance of a step, dimensionless.
+    /// Relative tolerance of a step, dimensionless; default 1e-9.
     pub rtol: f64,
-    /// Absolute tolerance of a step `[rad]`, `[rad/s]`.
+    /// Absolute tolerance of a step `[rad]`, `[rad/s]`; default 1e-12.
     pub atol: f64,
-    /// Length of the steps of methods without step control `[s]`.
+    /// Length of the steps of methods without step control `[s]`; default 1e-3.
     pub step: f64,
-    /// An interface that would hop by less closes `[rad]`.
+    /// An interface that would hop by less closes `[rad]`; default 1e-9.
     pub stick_angle: f64,
-    /// The column has overturned when some angle reaches this `[rad]`.
+    /// The column has overturned when some angle reaches this `[rad]`; default π/2.
     pub overturn_angle: f64,
     /// Generated or generic equations.
     pub dynamics: DynamicsSource,
@@ -528,6 +528,7 @@ impl Scene {
                     Some("gamma") => "give a number up to 1e6, above 0 (of mavroeidis-papageorgiou, above 1)",
                     Some("file") => "its largest acceleration is that; scale it to 1e6 m/s² at most",
                     Some("dt") => "give an interval above 1e-9 s, up to 1e6",
+                    Some("velocity") => "it is the velocity or velocity · omega; let both be up to 1e6",
                     Some("cycles") => "give a whole number of cycles, at least one",
                     _ => "give a size up to 1e6, above zero for omega and duration",
                 };

@@ -37,7 +37,7 @@ pub struct BakedBlock {
 }
 
 impl BakedBlock {
-    /// A homogeneous rectangle of this density `[kg/m²]`: `m = 4 b h density`, `I = m (b² + h²) / 3`.
+    /// A homogeneous rectangle of half-width `b [m]`, half-height `h [m]` and density `ρ [kg/m²]`: `m = 4 ρ b h`, `I = m (b² + h²) / 3`.
     pub fn rectangle(half_width: f64, half_height: f64, density: f64) -> BakedBlock {
         let mass = 4.0 * half_width * half_height * density;
         let inertia = mass * (half_width * half_width + half_height * half_height) / 3.0;

@@ -125,6 +125,9 @@ pub fn derive_in_form(linkage: &Linkage, bodies: Bodies, plan: &Plan) -> Derivat
 
 /// Arena and program of the contact forces at one interface (from zero) of a linkage of arbitrary rigid bodies. The arena owns the formulas of
 /// the constants.
+///
+/// # Panics
+/// If the linkage has no such interface.
 pub fn derive_forces(linkage: &Linkage, interface: usize) -> (Arena, Program) {
     let mut arena = Arena::new();
     let symbols = Symbols::declare(&mut arena, linkage.blocks(), linkage.dof(), Bodies::Any);

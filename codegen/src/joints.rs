@@ -106,6 +106,7 @@ impl fmt::Display for Joint {
 
 /// Why a text is no combination of states.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum JointsError {
     /// No list in parentheses.
     NoList,

@@ -264,7 +264,8 @@ impl Motion {
     }
 
     /// Name and value of the first parameter that is not finite, exceeds `largest` in magnitude, or is not above its lower bound. It is `None` if
-    /// all parameters are valid. In a sum the name is `term[k].name`, with `k` from 1.
+    /// all parameters are valid. Parameters are in SI units. The peak of a record has the name `file`; the largest acceleration `velocity · omega` of a
+    /// pulse of velocity has the name `velocity`. In a sum the name is `term[k].name`, with `k` from 1.
     pub fn invalid(&self, largest: f64) -> Option<(String, f64)> {
         if let Motion::Sum { terms } = self {
             let term = |(index, term): (usize, &Motion)| {

@@ -5,9 +5,9 @@ use crate::piece::Piece;
 /// A span of time in which both components are smooth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Segment {
-    /// `[s]`
+    /// Start of the segment `[s]`.
     pub start: f64,
-    /// `[s]`
+    /// End of the segment `[s]`.
     pub end: f64,
     /// Horizontal ground acceleration.
     pub horizontal: Piece,

@@ -22,9 +22,9 @@ use std::f64::consts::TAU;
 pub struct Synthetic {
     /// Peak acceleration `[m/s²]`.
     pub pga: f64,
-    /// `[s]`, rounded to a whole number of sampling intervals.
+    /// Duration `[s]`, rounded to a whole number of sampling intervals.
     pub duration: f64,
-    /// `[s]`
+    /// Sampling interval `[s]`.
     pub dt: f64,
     /// Seed of the noise: one record for each.
     pub seed: u64,

@@ -15,7 +15,8 @@ fn exception<'py>(py: Python<'py>, class: &str, arguments: impl pyo3::call::PyCa
     made.map_or_else(|failure| failure, PyErr::from_value)
 }
 
-/// `SceneError(message, file, line, key, problem, remedy, record, faults)`; `MissingFileError` of the same arguments for a file that is not there.
+/// `SceneError(message, file, line, key, problem, remedy, record, faults)`; `MissingFileError` of the same arguments for a file or a record that is not
+/// there.
 pub fn scene(py: Python<'_>, error: &SceneFileError) -> PyErr {
     let text = error.to_string();
     let shown = |path: &Path| path.display().to_string();
@@ -24,7 +25,8 @@ pub fn scene(py: Python<'_>, error: &SceneFileError) -> PyErr {
             exception(py, "SceneError", (text, shown(file), *line, key, problem, remedy))
         }
         SceneFileError::Record { file, line, key, record, problem } => {
-            exception(py, "SceneError", (text, shown(file), *line, key, problem, "", shown(record)))
+            let class = if record.exists() { "SceneError" } else { "MissingFileError" };
+            exception(py, class, (text, shown(file), *line, key, problem, "", shown(record)))
         }
         SceneFileError::Several { faults } => {
             let faults: Vec<Py<PyAny>> =

@@ -122,6 +122,8 @@ def test_a_partition_takes_about_as_long_as_asked() -> None:
     assert 1 <= size <= rd.MOST_ROWS and 0.05 < spent < 5.0
     with pytest.raises(ValueError, match="at least one row"):
         rd.frame(SWEEP, partition_size=0)
+    with pytest.raises(ValueError, match="threads = -2"):
+        rd.partition_size(SWEEP, threads=-2)
     for rows in (range(0), range(5, len(SWEEP) + 1), range(-1, 5), range(0, 10, 2)):
         with pytest.raises(ValueError, match="no range of the 8816 rows"):
             rd.frame(SWEEP, rows=rows)

@@ -106,6 +106,8 @@ def test_a_folder_is_read_by_components(tmp_path: Path) -> None:
     assert [record.name for record in rk.Records([r.horizontal for r in found])] == [record.name for record in found]
     with pytest.raises(rk.SceneError, match="component `270`"):
         rk.records(tmp_path, component="270")
+    with pytest.raises(rk.SceneError, match="choose another component, or read the files one by one with Record.read"):
+        rk.records(tmp_path, component="270")
     (tmp_path / "empty").mkdir()
     with pytest.raises(rk.SceneError) as caught:
         rk.records(tmp_path / "empty")

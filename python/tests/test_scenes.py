@@ -243,6 +243,26 @@ def test_a_file_that_is_not_there_is_a_file_not_found(tmp_path: Path) -> None:
     assert not isinstance(folder.value, FileNotFoundError)
 
 
+def test_a_record_that_is_not_there_is_a_file_not_found(tmp_path: Path) -> None:
+    missing, damaged = tmp_path / "none.AT2", tmp_path / "damaged.AT2"
+    damaged.write_text("no record\n")
+    with pytest.raises(FileNotFoundError) as caught:
+        rk.Scene(COLUMN, {"kind": "record", "file": str(missing)})
+    error = pickle.loads(pickle.dumps(caught.value))
+    assert isinstance(error, rk.MissingFileError) and error.filename == error.record == str(missing) and error.file == "<scene>"
+    with pytest.raises(rk.SceneError) as caught_too:
+        rk.Scene(COLUMN, {"kind": "record", "file": str(damaged)})
+    assert caught_too.value.record == str(damaged) and not isinstance(caught_too.value, FileNotFoundError)
+
+
+def test_what_a_motion_gives_out_changes_no_scene() -> None:
+    shake = rk.total(rk.pulse("half-sine", amplitude=1.0, omega=5.0), rk.pulse("half-sine", amplitude=2.0, omega=5.0, start=1.0))
+    scene = rk.Scene(COLUMN, shake)
+    shake["term"].append({"kind": "half-sine", "amplitude": 9.0, "omega": 5.0})
+    shake["term"][0]["amplitude"] = 9.0
+    assert len(shake["term"]) == 2 and rk.Scene.from_toml(scene.toml) == scene and "9.0" not in scene.toml
+
+
 def test_rows_that_are_not_wanted_are_not_too_many() -> None:
     motion = rk.pulse("ricker", amplitude=2.0, omega=5.0)
     assert len(rk.simulate(COLUMN, motion, t_end=1e5, rows=False).t) == 0

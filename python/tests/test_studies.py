@@ -560,7 +560,11 @@ def test_what_is_to_be_known_of_records_is_a_warning_of_studies_and_sweeps(tmp_p
     without_unit(tmp_path, "X.AT2")
     record = rk.Record.read(tmp_path / "X.AT2")
     column = rk.Column.prisms(1, half_width=0.3, half_height=1.5)
-    with pytest.warns(UserWarning, match="X.AT2.*unit"):
+    for make in (rk.Ida, rk.ida):
+        with pytest.warns(UserWarning, match="X.AT2.*unit") as told:
+            analysis = make(column, [record], "pgv", [0.3], trust=False)
+        assert [warning.filename for warning in told] == [__file__]
+    with pytest.warns(UserWarning):
         analysis = rk.Ida(column, [record], "pgv", [0.3], trust=False)
     assert len(analysis.warnings) == 1
     with warnings.catch_warnings():

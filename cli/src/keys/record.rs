@@ -7,11 +7,11 @@ use schemars::JsonSchema;
 /// How a record file is read.
 #[derive(JsonSchema)]
 pub struct Reading {
-    /// accept a file with fewer samples than it declares
+    /// accept a file with fewer samples than it declares, another peak than it states, or two units or intervals
     #[schemars(extend("x-default" = "false"))]
     pub lenient: Option<bool>,
     /// channel of a file that has several
-    #[schemars(range(min = 1), extend("x-default" = "the only one"))]
+    #[schemars(range(min = 1), extend("x-default" = "the first; with a warning where there are several"))]
     pub channel: Option<u32>,
     /// column of a text table with the accelerations: its name, or its number from 1
     #[schemars(extend("x-default" = "found by itself"))]

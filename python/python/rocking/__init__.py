@@ -7,6 +7,9 @@
 ('rocks', (1001, 3))
 
 Lengths are in m, masses in kg, times in s, angles in rad. Arguments have the names and units of the keys of scene files. Blocks and interfaces are base first.
+
+``MEASURES`` are the names of the measures to which a record can be scaled, ``MAX_BLOCKS`` the number of blocks
+up to which this build has generated equations of motion.
 """
 
 from ._errors import FolderError, MissingFileError, RecordError, RockingError, SceneError, SolveError, StudyError

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import sys
 import warnings
 from typing import Any
 
@@ -20,7 +21,8 @@ class SceneError(RockingError, ValueError):
     Attributes
     ----------
     file : str
-        The scene file; ``<scene>`` for one made in Python, whose text is ``Scene.toml``.
+        The file, or the folder of records. What was made in Python has a name instead: ``<scene>`` (its text is ``Scene.toml``), ``<column>``,
+        ``<sweep>``, ``<point of a sweep>`` or ``<run of a study>``.
     line : int
         Line of the file, from 1; 0 where there is none.
     key : str
@@ -30,7 +32,7 @@ class SceneError(RockingError, ValueError):
     record : str
         The record's file, where a record is at fault.
     faults : tuple of SceneError
-        All faults, where there are several.
+        All faults, in the order of the text; of a single one, this error alone.
     """
 
     def __init__(
@@ -56,11 +58,11 @@ class SceneError(RockingError, ValueError):
 
 
 class MissingFileError(SceneError, FileNotFoundError):
-    """A file of a scene, a sweep or a study, or a folder of records, is not there. ``filename`` is its path, as is ``file``."""
+    """A scene file, a sweep file, a study file, a folder of records, or a record that a scene names is not there. ``filename`` is its path."""
 
     def __init__(self, message: str, file: str = "", *details: Any) -> None:
         super().__init__(message, file, *details)
-        self.errno, self.strerror, self.filename = errno.ENOENT, message, file
+        self.errno, self.strerror, self.filename = errno.ENOENT, message, self.record or file
 
 
 class RecordError(RockingError, ValueError):
@@ -80,7 +82,7 @@ class SolveError(RockingError, RuntimeError):
 
 
 class StudyError(RockingError, ValueError):
-    """A study is refused: no record, no level, a state that its runs do not tell."""
+    """A study is refused: it has no record or no level, its table lacks a column, or a limit state needs a column that the table lacks."""
 
 
 class FolderError(RockingError, OSError):
@@ -90,8 +92,11 @@ class FolderError(RockingError, OSError):
 MOST_WARNINGS = 10
 
 
-def warn(sentences: list[str], stacklevel: int) -> None:
-    """Warns of the first of these, and of how many others there are, ``stacklevel`` calls above."""
+def warn(sentences: list[str]) -> None:
+    """Warns of the first of these, and of how many others there are, at the line from which the package was called."""
+    stacklevel, frame = 2, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").split(".")[0] == __package__:
+        stacklevel, frame = stacklevel + 1, frame.f_back
     others = len(sentences) - MOST_WARNINGS
     for sentence in sentences[:MOST_WARNINGS] + ([f"and {others} more"] if others > 0 else []):
         warnings.warn(sentence, stacklevel=stacklevel)

@@ -20,7 +20,7 @@ class Motion(Mapping[str, Any]):
         self._keys = {key: copied(value) for key, value in keys.items() if value is not None}
 
     def __getitem__(self, key: str) -> Any:
-        return self._keys[key]
+        return copied(self._keys[key])
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._keys)
@@ -59,7 +59,9 @@ def pulse(
     duration: float | None = None,
     cycles: int | None = None,
 ) -> Motion:
-    """A motion by a formula. Exactly one amplitude and one frequency are given.
+    """A motion by a formula. Exactly one amplitude is given, and one frequency, which only the rectangular pulses have not.
+
+    The scene that takes the motion checks its keys, and raises :class:`SceneError`. Formulas and sources are in the book's chapter Ground motion.
 
     Parameters
     ----------
@@ -67,13 +69,21 @@ def pulse(
         ``sine-pulse``, ``cosine-pulse``, ``half-sine``, ``type-c``, ``ricker``, ``antisymmetric-ricker``, ``mavroeidis-papageorgiou``, ``gabor``,
         ``rectangular``, ``double-rectangular`` or ``harmonic``.
     amplitude, amplitude_g, amplitude_uplift : float
-        In m/s², in g, or over ``g tan α``, which opens the base of the column.
+        Amplitude of the acceleration in m/s², in g, or in units of ``g tan α``, the acceleration that opens the base of the column.
     velocity : float
         Amplitude of the velocity [m/s], of ``mavroeidis-papageorgiou`` and ``gabor``.
     omega, frequency, period, omega_p : float
-        In rad/s, Hz or s, or over the frequency parameter p of the column as one body.
-    start, phase, gamma, duration, cycles
-        As in a scene file: s, rad, dimensionless, s, a whole number.
+        Angular frequency [rad/s], frequency [Hz], period [s], or angular frequency in units of the frequency parameter p of the column as one body.
+    start : float
+        Time at which the motion begins [s], 0 unless given.
+    phase : float
+        Phase [rad], of ``harmonic``, ``mavroeidis-papageorgiou`` and ``gabor``.
+    gamma : float
+        Width of the envelope, dimensionless, of ``mavroeidis-papageorgiou`` and ``gabor``.
+    duration : float
+        Duration of the rectangular pulses and of ``harmonic`` [s]; a harmonic motion has no end unless it is given.
+    cycles : int
+        Number of cycles of ``type-c``.
 
     >>> pulse("ricker", amplitude_g=0.4, frequency=1.2)
     Motion(kind='ricker', amplitude_g=0.4, frequency=1.2)
@@ -112,7 +122,13 @@ def checked(name: str, motion: Any) -> Any:
 
 
 def total(*terms: MotionLike) -> Motion:
-    """The sum of several motions; sums among them are their terms."""
+    """The sum of several motions; of a sum among them the terms are taken.
+
+    Raises
+    ------
+    TypeError
+        For a term that is no motion.
+    """
     items: list[Any] = []
     for number, term in enumerate(terms, start=1):
         checked(f"motion {number} of the sum", term)

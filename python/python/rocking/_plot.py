@@ -60,7 +60,7 @@ def run(drawn: "Run", axes: Any = None) -> "npt.NDArray[Any]":
 
 def study(drawn: "Study", ax: "Axes | None" = None) -> "Axes":
     ax = plt.subplots(figsize=(6, 5), layout="constrained")[1] if ax is None else ax
-    runs = drawn._runs(stacklevel=4)
+    runs = drawn._runs()
     stripes = drawn._stripes(runs)
     labels, levels, outcomes, peaks = runs.records, runs.levels, runs.outcomes, runs.peaks
     demand = np.fmax.reduce(peaks, axis=1) if peaks.shape[1] else np.full(len(levels), np.nan)

@@ -53,6 +53,15 @@ class Record:
     gravity : float
         One g of the samples [m/s²].
 
+    Raises
+    ------
+    RecordError
+        For fewer than two samples, a sample that is not finite, or an interval out of range.
+    ValueError
+        For an array of another shape, masked samples, or a unit that does not exist.
+    TypeError
+        For what are no real numbers.
+
     >>> Record([0.0, 1.0, -1.0, 0.0], dt=0.01).duration
     0.03
     """
@@ -117,9 +126,9 @@ class Record:
         dt : float
             Sampling interval [s] of a table without times.
         lenient : bool
-            Whether a file with fewer samples than it declares is accepted.
+            Whether a file with fewer samples than it declares, another peak than it states, or two units or intervals is accepted, with a warning.
         channel : int
-            Number of the channel, from 1, of a file that has several.
+            Number of the channel, from 1, of a file that has several; the first one, with a warning, unless given.
         column : str or int
             Column of a table with the accelerations: its name, or its number from 1; found by itself unless given.
         skip_rows : int
@@ -130,9 +139,11 @@ class Record:
         Raises
         ------
         RecordError
-            With the place in the file and the remedy.
+            For a file that is no record, with the place in the file and the remedy.
         OSError
             For a file that cannot be opened; ``FileNotFoundError`` where there is none.
+        ValueError
+            For a unit that does not exist, or an option out of range.
         """
         name = None if column is None else str(column)
         channel, skip_rows = None if channel is None else whole("channel", channel), whole("skip_rows", skip_rows)
@@ -150,7 +161,28 @@ class Record:
         damping: float = 0.6,
         pga: float = 3.0,
     ) -> "Record":
-        """Filtered noise, the same for the same seed on every machine; units s, s, Hz, dimensionless, m/s²."""
+        """White noise under an envelope (Jennings, Housner & Tsai 1968) through the filters of Kanai (1957), Tajimi (1960) and Clough & Penzien (1975).
+
+        The same seed gives the same record on every machine.
+
+        Parameters
+        ----------
+        seed : int
+            From 0.
+        duration, dt : float
+            Duration and sampling interval [s].
+        frequency : float
+            Frequency of the ground [Hz]: about 1 for soft soil, 2.5 for firm ground, 4 for rock.
+        damping : float
+            Damping ratio of the ground.
+        pga : float
+            Peak acceleration [m/s²].
+
+        Raises
+        ------
+        RecordError
+            For a size out of range.
+        """
         sizes = {"duration": duration, "dt": dt, "frequency": frequency, "damping": damping, "pga": pga}
         return cls._of(_rocking.Record.synthetic(whole("seed", seed), *(number(name, size) for name, size in sizes.items())))
 
@@ -167,7 +199,17 @@ class Record:
         """The record times a factor, or scaled to one measure by its name in a scene file.
 
         Measures are ``pga`` [m/s²], ``pga_g`` [g], ``pga_uplift`` [g tan α], ``pgv`` [m/s], ``pgv_uplift`` [g tan α / p], ``pgd`` [m], ``arias`` [m/s],
-        ``cav`` [m/s], and ``sa`` [m/s²] or ``sa_g`` [g] at ``sa_period`` [s]. Those of ``uplift`` need the column.
+        ``cav`` [m/s], and ``sa`` [m/s²] or ``sa_g`` [g] at ``sa_period`` [s] with the damping ratio ``sa_damping``, 0.05 unless given. Those of ``uplift``
+        need the ``column``. One g is that of the column, where it is given, else ``gravity`` [m/s²].
+
+        Raises
+        ------
+        TypeError
+            Unless exactly one size is given.
+        ValueError
+            For a measure that does not exist, or a size out of range.
+        RecordError
+            For a record whose measure is zero, or that would be out of range.
 
         >>> float(Record([0.0, 1.0, -2.0], dt=0.01).scaled(pga=0.5).accel.min())
         -0.5
@@ -194,11 +236,19 @@ class Record:
         return total(self, other)
 
     def trimmed(self, start: float, stop: float) -> "Record":
-        """The samples from ``start`` to ``stop``, both included, counted from the first sample [s]."""
+        """The samples from ``start`` to ``stop``, both included, counted from the first sample [s].
+
+        The first sample that stays is at the time :attr:`start`, as the first one was: what was cut away before it moves the record in time.
+
+        Raises
+        ------
+        RecordError
+            Where fewer than two samples are left.
+        """
         return Record._of(self._record.trimmed(number("start", start), number("stop", stop)))
 
     def starting_at(self, start: float) -> "Record":
-        """The record with its first sample at a time [s]."""
+        """The record with its first sample at a time [s]; ValueError for a time that is not finite."""
         return Record._of(self._record.starting_at(number("start", start)))
 
     def named(self, name: str) -> "Record":
@@ -223,12 +273,12 @@ class Record:
 
     @property
     def velocity(self) -> Array:
-        """Ground velocity [m/s], from rest at the first sample, shape (samples,)."""
+        """Ground velocity [m/s], from rest at the first sample, shape (samples,); read-only."""
         return _fixed(self._record.velocity)
 
     @property
     def displacement(self) -> Array:
-        """Ground displacement [m], from rest at the first sample, shape (samples,)."""
+        """Ground displacement [m], from rest at the first sample, shape (samples,); read-only."""
         return _fixed(self._record.displacement)
 
     @property
@@ -248,28 +298,52 @@ class Record:
 
     @property
     def scale(self) -> float:
-        """Factor of the samples since they were read."""
+        """Factor by which :meth:`scaled` changed the samples, in all; 1 for a record as it was read or made."""
         return self._record.scale
 
     @property
     def warnings(self) -> list[str]:
-        """What is to be known of the file or the samples, a sentence each."""
+        """Warnings about the file or the samples, a sentence each."""
         return self._record.warnings
 
     def measures(self, gravity: float = GRAVITY) -> dict[str, float]:
-        """Intensity measures by name: PGA, PGV, PGD, Arias intensity, CAV, durations, mean period; SI.
+        """Intensity measures by name, in SI; ``gravity`` [m/s²] enters the Arias intensity.
 
-        The mean period of a record without frequencies from 0.25 to 20 Hz is NaN.
+        ``pga`` [m/s²] and ``pga_time`` [s]; ``pgv`` [m/s]; ``pgd`` and ``end_displacement`` [m]; ``arias`` [m/s] (Arias 1970); ``cav`` [m/s], the integral of
+        ``|a|`` (EPRI 1988); ``mean_period`` [s] of the Fourier amplitudes from 0.25 to 20 Hz (Rathje et al. 1998), NaN where there are none;
+        ``significant_duration`` [s] from 5 to 95 % of the Arias intensity (Trifunac & Brady 1975), between the times ``significant_start`` and
+        ``significant_end`` [s], and ``significant_duration_75`` [s] from 5 to 75 % (Somerville et al. 1997); ``duration`` [s] of the record.
+
+        Raises
+        ------
+        ValueError
+            For a ``gravity`` that is not above zero.
         """
         return {name: np.nan if value is None else value for name, value in self._record.measures(number("gravity", gravity)).items()}
 
     def spectrum(self, periods: npt.ArrayLike, damping: float = 0.05) -> Array:
-        """Pseudo-spectral accelerations [m/s²] at periods [s], of the shape of the periods."""
+        """Pseudo-spectral accelerations [m/s²] at periods [s], of the shape of the periods; exact for linear samples (Nigam & Jennings 1969).
+
+        Parameters
+        ----------
+        periods : array
+            Above zero [s].
+        damping : float
+            Damping ratio, from 0 to below 1.
+
+        Raises
+        ------
+        ValueError
+            For a period or a damping ratio out of range.
+        """
         wanted = numbers("periods", periods)
         return self._record.spectrum(np.ascontiguousarray(wanted.ravel()), number("damping", damping)).reshape(wanted.shape)
 
     def to_csv(self, file: str | os.PathLike[str] | None = None) -> str | None:
-        """The record as a table of times from its first sample and accelerations that reads back to the same samples, starting at zero; text where no file is given."""
+        """Writes the record as a table of times from its first sample [s] and accelerations [m/s²]; returns the text where no file is given.
+
+        :meth:`read` reads it back to the same samples; the record then starts at zero.
+        """
         text = self._record.to_csv()
         if file is None:
             return text
@@ -310,7 +384,7 @@ class Record:
 
 
 class StudyRecord:
-    """Components of one record under a name: horizontal, and perhaps vertical; not changed after it was made."""
+    """Components of one record under a name: horizontal, and perhaps vertical; not changed after it was made, and equal to itself alone."""
 
     __slots__ = ("_name", "_horizontal", "_vertical")
 
@@ -350,7 +424,13 @@ class StudyRecord:
 
 
 class Records(Sequence[StudyRecord]):
-    """Records of a study, each under a name of its own."""
+    """Records of a study, each under a name of its own. A :class:`Record` without a name is "record 3" for the third.
+
+    Raises
+    ------
+    ValueError
+        For a name that is given twice.
+    """
 
     def __init__(self, records: "Iterable[StudyRecord | Record]") -> None:
         if isinstance(records, str | os.PathLike):
@@ -445,7 +525,9 @@ def records(
         found = _rocking.Ida.from_toml(_rocking.to_toml(study), "<records>").records
     except SceneError as refused:
         # There is no file of a study, whose line could be named, and no argument `files`.
-        problem, remedy = refused.problem, refused.remedy.replace("name the records with `files`", "read the others one by one with Record.read")
+        problem, remedy = refused.problem, refused.remedy
+        for what, read in (("records", "others"), ("files", "files")):
+            remedy = remedy.replace(f"name the {what} with `files`", f"read the {read} one by one with Record.read")
         argument = (refused.key or "").removeprefix("records.")
         place = f"{path}, {argument}" if argument in keys and argument != "folder" else path
         raise SceneError(f"{place}: {problem}; {remedy}", path, 0, refused.key, problem, remedy, refused.record) from None
@@ -453,7 +535,7 @@ def records(
 
 
 def synthetic(seeds: Iterable[int], *, duration: float = 20.0, dt: float = 0.01, frequency: float = 2.5, damping: float = 0.6) -> Records:
-    """Synthetic records, one for each seed; units s, s, Hz, dimensionless."""
+    """Synthetic records, one for each seed, as :meth:`Record.synthetic` makes them; ValueError for a seed that is given twice."""
     if not isinstance(seeds, Iterable):
         raise TypeError(f"seeds is of {type(seeds).__name__}; give a sequence of whole numbers, such as range(10)")
     made = (Record.synthetic(seed, duration=duration, dt=dt, frequency=frequency, damping=damping) for seed in seeds)

@@ -57,21 +57,23 @@ def simulate(
     rows : bool
         Whether rows are returned, every ``output_dt`` seconds or at the times ``t_eval``. Without them a short run takes a fraction of the time.
     forces : bool
-        Whether friction demand and smallest normal forces are found; with friction they always are.
+        Whether the summary has friction demand and smallest normal force of each interface. :attr:`Run.force` does not depend on it.
     wanted : str
         ``everything``, ``outcome`` (whether and when it overturns: no rows, events, peaks or forces) or ``overturns`` (whether it does).
     trust : bool
-        Whether the run is followed by companions, as ``rocking run`` does: ``run.trust`` then says how far it is determined. Without them a run takes
-        microseconds; with them 7 to 30 times as long on one thread; they run on all. The run itself is the same. With ``wanted="everything"`` alone.
+        Whether the run is followed by its companions, as ``rocking run`` does: ``run.trust`` then says how far it is determined. The run itself is the same.
+        Companions take 7 to 30 times as long as the run, shared among all threads of the machine. With ``wanted="everything"`` alone.
     **arguments
         As of :class:`Scene`.
 
     Raises
     ------
     SceneError
-        With the key and the remedy.
+        For a scene that is refused, with the key and the remedy.
     SolveError
-        With the time.
+        For a run that cannot go on, with the time.
+    ValueError
+        For what cannot be ``wanted``, or ``wanted`` with ``trust``.
 
     >>> run = simulate(Column.prisms(1, half_width=0.4, half_height=1.6), theta=[0.1], t_end=2, output_dt=0.5)
     >>> run.t.tolist(), run.theta.shape, run.impacts
@@ -122,7 +124,15 @@ def trust(
 
 
 class Run:
-    """The response of a column. Blocks and interfaces are base first; arrays are read-only, ``copy()`` gives one to change."""
+    """The response of a column. Blocks and interfaces are base first; arrays are read-only, ``copy()`` gives one to change.
+
+    A run with ``rows=False``, or with another ``wanted`` than ``everything``, has arrays of no rows.
+
+    Attributes
+    ----------
+    scene : Scene
+        What was run.
+    """
 
     def __init__(self, scene: Scene, response: _rocking.Response) -> None:
         self.scene = scene
@@ -150,17 +160,17 @@ class Run:
 
     @cached_property
     def pattern(self) -> npt.NDArray[np.int8]:
-        """Signs of the interfaces: 1 open on the right corner, -1 on the left, 0 closed; shape (rows, blocks)."""
+        """Signs of the interfaces: 1 where the block above stands on its right corner (``phi`` > 0), -1 on its left, 0 closed; shape (rows, blocks)."""
         return _fixed(self._response.pattern())
 
     @cached_property
     def slide(self) -> Array | None:
-        """Slides at the interfaces [m], shape (rows, blocks); None without friction."""
+        """Slides at the interfaces [m], shape (rows, blocks); None without friction, and where only the outcome is asked for."""
         return _fixed(self._response.slide())
 
     @cached_property
     def gap(self) -> Array | None:
-        """Gaps of free interfaces [m], shape (rows, blocks); None without friction."""
+        """Gaps of interfaces in flight [m], shape (rows, blocks); None without friction, and where only the outcome is asked for."""
         return _fixed(self._response.gap())
 
     @cached_property
@@ -187,13 +197,20 @@ class Run:
 
     @cached_property
     def top(self) -> Array:
-        """Displacement of the middle of the column's top in the frame of the ground [m], to the right and upwards, shape (rows, 2)."""
+        """Displacement of the middle of the column's top in the frame of the ground [m], to the right and upwards, shape (rows, 2).
+
+        It counts from the place at t = 0, so that slides of the initial state are not in it.
+        """
         return _fixed(self._response.top_displacement())
 
     @property
     def events(self) -> pd.DataFrame:
-        """Impacts, openings and other events, a row each: ``t`` [s], ``kind``, ``interface``, patterns and modes, angles [rad], rates [rad/s], impulses [N s].
-        Where blocks slid or flew also states with slides and flights, such as ``(+>,0,f)``, and slides [m].
+        """Impacts, openings and other events, a row each: ``t`` [s], ``kind``, ``interface``, patterns and modes, angles [rad], rates [rad/s] before and after,
+        impulses [N s], ``mirrored`` (whether the pattern after is the mirror image of that of ``mode``) and ``energy_lost``, the share of the kinetic
+        energy that an impact takes.
+
+        Where blocks slid or flew also slides [m] and the states of the interfaces, base first: ``(+>,0,f)`` is a first one open on its right corner that
+        slides to the right, a second one closed, a third in flight. The book's chapter Results explains all columns.
         """
         return self._events.copy()
 
@@ -238,7 +255,7 @@ class Run:
 
     @property
     def overturned(self) -> bool:
-        """Whether the column overturned, or is certain to."""
+        """Whether the column overturned; where only the outcome is asked for, also whether it is certain to."""
         return self._response.overturned
 
     @property
@@ -267,12 +284,12 @@ class Run:
 
     @cached_property
     def peak_theta(self) -> Array:
-        """Largest size of each angle [rad], shape (blocks,)."""
+        """Largest size of each angle [rad], shape (blocks,); (0,) where only the outcome is asked for."""
         return _fixed(self._response.peak_theta())
 
     @cached_property
     def alpha(self) -> Array:
-        """Slenderness of the stack that begins with each block [rad], shape (blocks,)."""
+        """Slenderness of the stack that begins with each block [rad], as it stands at t = 0, initial slides included; shape (blocks,)."""
         return _fixed(np.array(self.scene._compiled.stacks()["alpha"]))
 
     @property
@@ -311,7 +328,10 @@ class Run:
         return pd.DataFrame(columns)
 
     def to_xarray(self) -> "xarray.Dataset":
-        """The rows as a data set over ``t`` and ``block``: what :meth:`to_pandas` has, places and velocities over ``direction`` as well; ``phi`` and ``top`` where the scene's ``output_columns`` ask for them."""
+        """The rows as a data set over ``t`` and ``block``: what :meth:`to_pandas` has, places and velocities over ``direction`` as well. Needs ``xarray``.
+
+        It has ``phi`` and ``top`` where the scene's ``output_columns`` ask for them.
+        """
         import xarray
 
         names = {"theta": "rad", "omega": "rad/s", "slide": "m", "gap": "m"}
@@ -340,13 +360,20 @@ class Run:
         """Writes the folder of the run: ``response.csv``, ``events.json`` and ``summary.json``, as ``rocking run`` does.
 
         ``companions.csv`` as well where companions do not agree to the end.
+
+        Raises
+        ------
+        ValueError
+            Where only the outcome was asked for.
+        FolderError
+            For a folder that cannot be written.
         """
         if self._response.impacts is None:
             raise ValueError("the run has its outcome alone; run it without `wanted` to write its folder")
         self._response.write(os.fspath(folder))
 
     def report(self, file: str | os.PathLike[str]) -> None:
-        """Writes the page of the run: one HTML file with outcome, validity, animation, figures, inputs."""
+        """Writes the page of the run: one HTML file with outcome, validity, animation, figures, inputs; ValueError for a run without rows."""
         self._need_rows()
         with tempfile.TemporaryDirectory() as folder:
             self.write(folder)
@@ -355,7 +382,13 @@ class Run:
             out.write(page)
 
     def figures(self) -> dict[str, str]:
-        """The figures of the page as SVG, by their names: ``time-history``, ``phase-portrait``, ``energy``, ``forces``, ``slides``."""
+        """The figures of the page as SVG, by their names: ``time-history``, ``phase-portrait``, ``energy``, ``forces``, ``slides``.
+
+        Raises
+        ------
+        ValueError
+            For a run without rows.
+        """
         self._need_rows()
         with tempfile.TemporaryDirectory() as folder:
             self.write(folder)
@@ -366,7 +399,7 @@ class Run:
             raise ValueError("the run has no rows; run it with rows=True, without `wanted`, and with output times up to its end")
 
     def plot(self, axes: Any = None) -> "npt.NDArray[Any]":
-        """Draws ground acceleration and angles over time; returns both axes of matplotlib."""
+        """Draws ground acceleration and angles over time; returns both axes of matplotlib. ValueError for a run without rows."""
         from ._plot import run
 
         self._need_rows()

@@ -107,10 +107,22 @@ class Block(Mapping[str, Any]):
     Parameters
     ----------
     shape : str
-        ``prism`` or ``drum``.
-    **sizes
-        ``half_width`` or ``width``, ``half_height`` or ``height``, ``density`` or ``mass``, ``depth``, ``top_half_width``, ``bottom_half_width``,
-        ``centroid_height``, ``inertia``, and the other keys of a block.
+        ``prism`` or ``drum``; with a diameter a drum unless given, else a prism.
+    half_width, width, diameter : float
+        Of the whole block; one of them, or one of the base and one of the top: ``bottom_half_width``, ``bottom_width``, ``bottom_diameter``,
+        ``top_half_width``, ``top_width``, ``top_diameter``. Half the width of a drum is its radius.
+    half_height, height : float
+        One of them.
+    density, mass : float
+        One of them, or neither: 1 unless given. A density is in kg/m³ of drums and of prisms with a ``depth``, else in kg/m².
+    depth : float
+        Of a prism, across the plane of motion.
+    centroid_height, inertia : float
+        Of a block that is not homogeneous: height of the centroid above the base [m], moment of inertia about it [kg m²].
+    name : str
+        As in tables and reports.
+
+    The column that takes the block checks its keys, and raises :class:`SceneError`.
 
     >>> Block(half_width=0.4, height=1.6, density=2700)
     Block(half_width=0.4, half_height=0.8, density=2700)
@@ -178,6 +190,11 @@ class Column:
     gravity : float
         [m/s²], 9.81 unless given.
 
+    Raises
+    ------
+    SceneError
+        For a block that is refused, with the key and the remedy.
+
     >>> column = Column.drums(5, half_width=0.5, top_half_width=0.4, height=5.0, density=2700)
     >>> len(column), round(column.alpha, 4)
     (5, 0.2127)
@@ -200,7 +217,7 @@ class Column:
     def cut(cls, blocks: int, *, shape: str | None = None, gravity: float | None = None, **sizes: "Unpack[Sizes]") -> "Column":
         """A column cut into blocks of equal height, with straight sides: ``[column]`` of a scene file. Height and mass are those of the whole column.
 
-        Sizes are those of :class:`Block`: ``half_width`` or ``width``, ``half_height`` or ``height``, ``top_half_width``, ``density`` or ``mass``, ...
+        Sizes are those of :class:`Block`, of the whole column. SceneError for one that is refused.
         """
         made = cls.__new__(cls)
         made._become({"column": {"blocks": blocks, **_halved({**sizes, "shape": shape})}}, gravity)
@@ -220,12 +237,21 @@ class Column:
 
     @property
     def blocks(self) -> pd.DataFrame:
-        """Sizes of the blocks, base first, a row each; m, kg, kg m²."""
+        """Sizes of the blocks, base first, a row each.
+
+        ``bottom_half_width``, ``top_half_width``, ``half_height`` and the ``centroid_height`` above the base [m], ``mass`` [kg], and ``inertia`` [kg m²], the
+        moment of inertia about the centroid.
+        """
         return pd.DataFrame(self._native().blocks(), index=pd.RangeIndex(1, len(self) + 1, name="block"))
 
     @property
     def stacks(self) -> pd.DataFrame:
-        """The stack that begins with each block, as one body: ``alpha`` [rad], ``R`` [m], ``p`` [rad/s], ``uplift_acceleration`` [m/s²], ``housner_ratio``."""
+        """The stack that begins with each block, as one body (Housner 1963), a row each.
+
+        ``alpha`` [rad] is its slenderness, ``R`` [m] the distance of its centre of gravity from the corner of its base, ``p`` [rad/s] its frequency
+        parameter, the square root of ``m g R`` over its moment of inertia about that corner; ``uplift_acceleration`` [m/s²] opens its base;
+        ``housner_ratio`` is the ratio of its rates after and before an impact of its base. The book's chapter Conventions has the formulas.
+        """
         return pd.DataFrame(self._native().stacks(), index=pd.RangeIndex(1, len(self) + 1, name="block"))
 
     @property
@@ -240,7 +266,7 @@ class Column:
 
     @property
     def p(self) -> float:
-        """Frequency parameter of the whole column as one body [rad/s]."""
+        """Frequency parameter of the whole column as one body [rad/s], the square root of ``m g R`` over its moment of inertia about the corner (Housner 1963)."""
         return self._native().stacks()["p"][0]
 
     @property
@@ -339,14 +365,20 @@ class Scene:
 
     @classmethod
     def load(cls, file: str | os.PathLike[str]) -> "Scene":
-        """Reads a scene file; records are found relative to it."""
+        """Reads a scene file; records are found relative to it.
+
+        Raises
+        ------
+        SceneError
+            For a scene that is refused, with file, line, key and remedy; :class:`MissingFileError` where the file, or a record of it, is not there.
+        """
         # What is read later of its records, by `replace` or another process, may be read in another folder.
         path = os.path.abspath(file)
         return cls.from_toml(_rocking.scene_text(path), file=path)
 
     @classmethod
     def from_toml(cls, text: str, *, file: str | os.PathLike[str] = WITHOUT_FILE) -> "Scene":
-        """Reads the text of a scene file; ``file`` is named in errors, and records are found relative to it."""
+        """Reads the text of a scene file; ``file`` is named in errors, and records are found relative to it. Raises as :meth:`load`."""
         if not isinstance(text, str):
             raise TypeError(f"text is of {type(text).__name__}; give the text of a scene, or keys to Scene.from_dict")
         path = os.fspath(file)
@@ -355,7 +387,7 @@ class Scene:
 
     @classmethod
     def from_dict(cls, keys: Mapping[str, Any], *, file: str | os.PathLike[str] = WITHOUT_FILE) -> "Scene":
-        """Reads the keys of a scene file as a nested dictionary."""
+        """Reads the keys of a scene file as a nested dictionary; ``file`` is named in errors, and records are found relative to it. Raises as :meth:`load`."""
         if not isinstance(keys, Mapping):
             raise TypeError(f"keys are of {type(keys).__name__}; give a dictionary of the keys of a scene file")
         return cls._of(copied(keys), os.fspath(file))
@@ -370,8 +402,15 @@ class Scene:
     ) -> "Scene":
         """The scene with other arguments; ``keys`` takes dotted ones such as ``{"block[2].mass": 900.0}``.
 
-        Another ``column`` replaces the blocks, their ``size`` and the gravity, which is 9.81 m/s² unless the new column has one. None removes a key: ``friction=None`` gives the scene without friction,
-        ``keys={"excitation.vertical": None}`` without vertical motion.
+        Another ``column`` replaces the blocks, their ``size`` and the gravity, which is 9.81 m/s² unless the new column has one. None removes a key:
+        ``friction=None`` gives the scene without friction, ``keys={"excitation.vertical": None}`` without vertical motion.
+
+        Raises
+        ------
+        SceneError
+            For a scene that is refused, with the key and the remedy.
+        ValueError
+            For a dotted name that the scene cannot have, and for the scene of a point of a sweep or of a run of a study, which has no keys.
         """
         keys = self.keys
         if column is not None:
@@ -392,7 +431,7 @@ class Scene:
 
     @property
     def keys(self) -> dict[str, Any]:
-        """The keys as in a scene file; a copy."""
+        """The keys as in a scene file; a copy. ValueError for the scene of a point of a sweep or of a run of a study, which has none; so :attr:`toml`."""
         if self._file in (POINT, RUN):
             raise ValueError(f"the scene of a {self._file[1:-1]} has no keys of its own; change those of the base scene")
         keys: dict[str, Any] = copied(self._keys)
@@ -405,12 +444,12 @@ class Scene:
 
     @property
     def file(self) -> str:
-        """The scene file; ``<scene>`` for a scene without one."""
+        """The scene file; ``<scene>``, ``<point of a sweep>`` or ``<run of a study>`` for a scene without one."""
         return self._file
 
     @property
     def column(self) -> Column:
-        """The column."""
+        """The column as its blocks stand above each other, without the slides of the initial state. ValueError where there are no :attr:`keys`."""
         made = Column.__new__(Column)
         keys = self.keys
         made._become({key: keys[key] for key in OF_COLUMN if key in keys}, None)
@@ -428,7 +467,7 @@ class Scene:
 
     @property
     def warnings(self) -> list[str]:
-        """What is to be known of its records, a sentence each."""
+        """Warnings about its records, a sentence each."""
         return self._compiled.warnings
 
     def save(self, file: str | os.PathLike[str]) -> None:

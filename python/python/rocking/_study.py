@@ -6,7 +6,6 @@ import copy
 import json
 import os
 import re
-import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -44,11 +43,18 @@ class Ida:
     free_swing : float
         [s], 10 unless given.
     sa_period, sa_damping : float
-        Period [s] and damping ratio of ``sa`` and ``sa_g``.
+        Period [s] and damping ratio of ``sa`` and ``sa_g``; the ratio is 0.05 unless given.
     trust : bool
-        Whether companions tell of each run if its verdict is determined; the default. They take 7 to 30 times as long as the runs.
+        Whether each run is followed by its companions, which say whether its verdict is determined; the default. They take 7 to 30 times as long as the runs.
     **arguments
         As of :class:`Scene`.
+
+    Raises
+    ------
+    StudyError
+        For a study without records or levels, a measure that does not exist, or a record that cannot be scaled to a level.
+    SceneError
+        For a scene that is refused.
     """
 
     def __init__(
@@ -77,7 +83,7 @@ class Ida:
         times = (optional("free_swing", free_swing), optional("sa_period", sa_period), optional("sa_damping", sa_damping))
         self._source = (scene, found, text("measure", measure), sizes, *times, flag("trust", trust))
         self._become()
-        warn(self.warnings, stacklevel=3)
+        warn(self.warnings)
 
     def _become(self) -> None:
         scene, records, measure, levels, free_swing, sa_period, sa_damping, trust = self._source
@@ -101,7 +107,7 @@ class Ida:
 
     @property
     def warnings(self) -> list[str]:
-        """What is to be known of the records, a sentence each, each once; the first ones are also a ``UserWarning`` when the analysis is made."""
+        """Warnings about the records, a sentence each, each once; the first ones are also a ``UserWarning`` when the analysis is made."""
         return self._ida.warnings
 
     @property
@@ -113,7 +119,17 @@ class Ida:
         return len(self._ida)
 
     def table(self, start: int = 0, stop: int | None = None, *, threads: int = 0) -> pd.DataFrame:
-        """Runs the runs from ``start`` to before ``stop``; a row each, with the columns of ``rocking ida``."""
+        """Runs the runs from ``start`` to before ``stop``; a row each, with the columns of ``rocking ida``.
+
+        ``threads`` is the number of threads, 0 for as many as the machine has; rows do not depend on it.
+
+        Raises
+        ------
+        IndexError
+            For a ``stop`` after the last run.
+        ValueError
+            For a negative index, or more than 1024 threads.
+        """
         return frame(self._rows(start, stop, threads), start)
 
     def to_arrow(self, start: int = 0, stop: int | None = None, *, threads: int = 0) -> "pyarrow.Table":
@@ -223,6 +239,11 @@ class Study:
         As given, named levels of the table's index as columns; what follows from the table is computed when it is asked for.
     states : list of str
         Limit states of the study's file; none for a study that was not loaded from a file.
+
+    Raises
+    ------
+    StudyError
+        For a table that is not one of runs: it lacks a column, has one twice, or a run twice.
     """
 
     def __init__(self, table: pd.DataFrame, measure: str | None = None) -> None:
@@ -264,11 +285,17 @@ class Study:
 
     @classmethod
     def load(cls, file: str | os.PathLike[str], *, threads: int = 0) -> "Study":
-        """Runs a study file of ``rocking ida``. Its ``[fragility]`` gives ``states`` and what :meth:`fragility` takes unless given."""
+        """Runs a study file of ``rocking ida``. Its ``[fragility]`` gives ``states`` and what :meth:`fragility` takes unless given.
+
+        Raises
+        ------
+        SceneError
+            For a study that is refused, with file, line, key and remedy; :class:`MissingFileError` where the file is not there.
+        """
         native = _rocking.Ida.from_toml(_rocking.scene_text(os.fspath(file)), os.fspath(file))
         study = cls(frame(native.table(0, len(native), whole("threads", threads))), native.measure)
         study.states, study._options = native.states, native.options
-        warn(native.warnings, stacklevel=3)
+        warn(native.warnings)
         return study
 
     @property
@@ -276,8 +303,8 @@ class Study:
         """Label of an axis of the measure: quantity and unit."""
         return _rocking.measure_label(_last(self.measure)) or self.measure
 
-    def _runs(self, stacklevel: int = 3) -> "Runs":
-        """Columns as the library reads them; what must be known of them is a warning, `stacklevel` calls above."""
+    def _runs(self) -> "Runs":
+        """Columns as the library reads them, with warnings about rows that make one curve and runs that are cut."""
         table = self.table
         names = [str(name) for name in table.columns]
         of_records = [table.columns[place] for place in _rocking.record_columns(names)]
@@ -300,12 +327,12 @@ class Study:
             own = table[[*of_records, name]].drop_duplicates() if of_records else ()
             is_of_record = len(own) == count == len(set(records))
             if count > 1 and not is_of_record:
-                warnings.warn(f"the rows of all {count} values of `{name}` make one curve; filter the table for those of one", stacklevel=stacklevel)
+                warn([f"the rows of all {count} values of `{name}` make one curve; filter the table for those of one"])
         if "truncated" in names:
             cut = int((table["truncated"].astype("string").str.lower() == "true").fillna(False).sum())
             if cut:
                 told = f"{cut} run(s) end before their ground motion, with the energy to overturn, or sliding (`truncated`), and count as standing; a later t_end settles them"
-                warnings.warn(told, stacklevel=stacklevel)
+                warn([told])
 
         def texts(name: str) -> list[str | None]:
             return [None if pd.isna(cell) else str(cell) for cell in table[name]]
@@ -329,7 +356,10 @@ class Study:
 
     @property
     def stripes(self) -> pd.DataFrame:
-        """A row per level: counts of outcomes, and the 16, 50 and 84 % fractiles of the largest |θ|/α, infinite where the column is lost, NaN where peaks are unknown."""
+        """A row per level: counts of outcomes, and the 16, 50 and 84 % fractiles of the largest |θ|/α.
+
+        Fractiles are infinite where the column is lost, and NaN where peaks are unknown. StudyError for a table whose columns cannot be read.
+        """
         return self._stripes(self._runs())
 
     def _stripes(self, runs: "Runs") -> pd.DataFrame:
@@ -354,7 +384,15 @@ class Study:
             Resampled sets of records for the bands, their share within the bands, and the seed of the resampling; 1000, 0.9 and 0 unless given here or
             in the study's file.
         layout : str
-            ``stripes`` or ``cloud``; as the data have it unless given.
+            ``stripes``, where many records have each level, or ``cloud``, where each run has a level of its own; found from the number of runs per level
+            unless given.
+
+        Raises
+        ------
+        StudyError
+            For a state that does not exist, or that needs columns which the table lacks.
+        ValueError
+            For another layout, or a number out of range.
         """
         if not isinstance(state, str):
             raise TypeError(f"state is of {type(state).__name__}; give the text of one limit state, such as \"overturned\"")
@@ -399,13 +437,23 @@ class Fragility:
 
     Attributes
     ----------
-    state, measure : str
+    state : str
+        The limit state.
+    measure, label : str
+        Column of the levels, and the label of its axis: quantity and unit.
+    layout : str
+        ``stripes`` or ``cloud``, see :meth:`Study.fragility`.
+    records : int
+        Number of records.
     fit : str
         ``lognormal``, or why there is no curve: ``no-runs``, ``one-record``, ``never``, ``always``, ``step``, ``falling``.
     median, dispersion : float or None
-        Of the curve; the median in the unit of the measure.
+        Of the curve, by maximum likelihood (Baker 2015); the median in the unit of the measure.
+    log_likelihood : float or None
+        Logarithm of the likelihood of the runs by that curve.
     bands : dict or None
-        ``median``, ``dispersion`` and, over ``levels``, ``probability``: lower and upper ends; None where too few resampled sets have a curve.
+        Bands of the bootstrap: lower and upper ends of ``median`` and ``dispersion``, and of ``probability`` at the ``levels``. None where too few resampled
+        sets have a curve.
     bounds : list of dict or None
         The curves if none, and if all, of the undecided runs reached the state: ``kind``, and of a curve ``median`` and ``dispersion``. None where no run is
         undecided.
@@ -414,7 +462,7 @@ class Fragility:
     falls, resurrections : list
         Where the state is not monotonic in the level.
     statements : list of str
-        What is to be known, a sentence each.
+        Results and warnings, a sentence each.
     """
 
     def __init__(self, found: dict[str, Any], statements: list[str], measure: str, label: str) -> None:

@@ -30,7 +30,7 @@ class Sweep:
     scene : Scene
         The base scene.
     axes : mapping
-        Keys of a scene file, dotted or short as in a sweep file, and their values: a sequence of numbers or names, or
+        Keys of a scene file, dotted or short as in a sweep file, and their values: one number or name, or a sequence of them, or
         ``{"from": .., "to": .., "steps": .., "scale": "log"}``, or a distribution such as ``{"lognormal": [median, dispersion]}``. The last axis runs
         fastest.
     ask : str
@@ -44,7 +44,7 @@ class Sweep:
     Raises
     ------
     SceneError
-        For a key that no scene has, an axis without values, a scene that cannot be read.
+        For a key that no scene has, an axis without values, a base scene that is refused. A point whose scene is refused is a row with an error.
 
     >>> from rocking import Column, pulse
     >>> scene = Scene(Column.prisms(1, half_width=0.4, half_height=1.6), pulse("sine-pulse", amplitude_uplift=3, omega_p=5), eta=0.9)
@@ -75,7 +75,13 @@ class Sweep:
 
     @classmethod
     def load(cls, file: str | os.PathLike[str]) -> "Sweep":
-        """Reads a sweep file."""
+        """Reads a sweep file.
+
+        Raises
+        ------
+        SceneError
+            For a sweep that is refused, with file, line, key and remedy; :class:`MissingFileError` where the file is not there.
+        """
         made = cls.__new__(cls)
         # A process that runs a part may have another folder, and the file may be another by then.
         path = os.path.abspath(file)
@@ -95,14 +101,22 @@ class Sweep:
 
     @property
     def warnings(self) -> list[str]:
-        """What is to be known of the records of the points, or of a thousand that are evenly spread, a sentence each, each once."""
+        """Warnings about the records of the points, or of a thousand points that are evenly spread, a sentence each, each once."""
         return self._sweep.warnings(POINTS_READ)
 
     def __len__(self) -> int:
         return len(self._sweep)
 
     def scene(self, index: int) -> Scene:
-        """The scene of a point, with rows and forces. It is run as it is: it has no keys, and nothing in it can be replaced."""
+        """The scene of a point, with rows and forces. It has no keys: it can be run as it is, and not changed by :meth:`Scene.replace`.
+
+        Raises
+        ------
+        SceneError
+            For a scene that is refused.
+        IndexError
+            For a point after the last one; ValueError for a negative index.
+        """
         return Scene._of({}, POINT, self._sweep.scene(whole("index", index)))
 
     def table(self, start: int = 0, stop: int | None = None, *, threads: int = 0) -> pd.DataFrame:
@@ -110,6 +124,13 @@ class Sweep:
 
         ``threads`` is the number of threads, 0 for as many as the machine has; rows do not depend on it. A point whose scene cannot be read or run is a row
         with ``outcome`` "error". Blank are ``NaN`` and ``NA``.
+
+        Raises
+        ------
+        IndexError
+            For a ``stop`` after the last point.
+        ValueError
+            For a negative index, or more than 1024 threads.
         """
         return frame(self._rows(start, stop, threads), start)
 
@@ -193,5 +214,5 @@ def sweep(
     if table not in ("pandas", "pyarrow"):
         raise ValueError(f"there is no table of {table!r}; give pandas or pyarrow")
     plan = Sweep(scene, axes, ask=ask, combine=combine, sampling=sampling)
-    warn(plan.warnings, stacklevel=3)
+    warn(plan.warnings)
     return plan.table(threads=threads) if table == "pandas" else plan.to_arrow(threads=threads)

@@ -8,38 +8,41 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Trust:
-    """What the companions of a run say; the fields are those of ``trust`` in ``summary.json``."""
+    """How far a run is determined, by runs of almost the same scene, its companions (book, chapter Trust). Fields are those of ``trust`` in ``summary.json``."""
 
     outcome: str
-    """The verdict in words as far as it is determined: ``stands``, ``overturns``, ``collapses``, ``not determined``; ``ends undetermined``."""
+    """The verdict in words, as far as it is determined: ``stands``, ``stands up to the end of the run`` (the ground may still move then), ``overturns``,
+    ``collapses``, ``not determined``, or ``ends undetermined`` (a run with friction that has no answer)."""
     determined: bool
-    """Whether the verdict is determined: certain within the horizon, and that of all companions."""
+    """Whether the verdict is determined: it is certain within the horizon, and all companions have it."""
     verdict: str
-    """Of the run itself: ``stands``, ``may-overturn``, ``overturns``, ``collapses`` or ``undetermined``."""
+    """Verdict of the run itself: ``stands``, ``may-overturn``, ``overturns``, ``collapses`` or ``undetermined``."""
     certain_at: float
     """Time from which that verdict was certain [s]."""
     horizon: float
-    """Time up to which the angles are known [s]; ``ends_at`` where companions agree to the end."""
+    """Time up to which the angles of the run and of all companions but those with changes of 1e-6 agree [s]; ``ends_at`` where they agree to the end."""
     solver_horizon: float
-    """The same of the companion with a tighter tolerance alone [s]."""
+    """Time up to which the companion with a tighter tolerance agrees [s]: the solver's own error is small up to then."""
     input_horizon: float
-    """The same of all companions [s]: beyond it angles hang on the seventh digit of the inputs."""
+    """Time up to which all companions agree [s]: beyond it the angles depend on the seventh digit of the inputs."""
     ends_at: float
     """When the run ended [s]."""
     compared_every: float
     """Interval between the rows that were compared [s]: horizons are no finer."""
     amplification: float
-    """Largest change of an angle over α, per relative change of the inputs, dimensionless."""
+    """Largest change of an angle over α, with friction also of a slide over the contact's half-width, per relative change of the inputs; dimensionless."""
     grows_on: bool
     """Whether the amplification is a lower bound."""
     same_block: bool
-    """Whether the same block overturns or collapses in all runs."""
+    """Whether all companions lose the same block as the run, or none where the run loses none."""
     companions: tuple[dict[str, Any], ...] = field(repr=False)
-    """Per companion ``change``, ``verdict``, ``block``, ``ends_at``, ``parts_at`` [s] and ``difference``."""
+    """For each companion: ``change`` (``tolerance`` with its factor, or ``excitation`` or ``sizes`` with the relative change), ``verdict`` (None if the run failed), the ``block``
+    that is lost (None if none is), ``ends_at`` [s], ``parts_at`` [s] (None if it agrees to the end), and the largest ``difference``, as in ``amplification``."""
     further: dict[str, int] | None
-    """More companions with changes up to 1e-6: how many ``runs``, and how many ``others`` have another verdict; None where the nine decide."""
+    """More companions with changes up to 1e-6: how many ``runs``, and how many ``others`` failed or have another verdict; None where the first ones decide."""
     fold: dict[str, Any] | None
-    """Relative changes of the shaking that were ``tried``, and the ``turns`` that change the verdict; None for a run that is not determined, or without ground motion."""
+    """The relative changes of the shaking that were ``tried``, each up and down, and in ``turns`` those of the smallest size that make another verdict. None for
+    a run that is not determined, or without ground motion."""
     sentence: str
     """Trust in a line, as ``rocking run`` prints it."""
 

@@ -55,13 +55,21 @@ def _part(bounds: tuple[int, int], plan: Plan, threads: int) -> pd.DataFrame:
 def partition_size(plan: Plan, *, seconds: float = SECONDS_PER_PARTITION, threads: int = 1) -> int:
     """Rows of a partition that takes so many seconds, from the time of rows spread over the study.
 
-    The estimate costs about half a second of runs; partitions of a study whose runs differ much take between a fraction and a multiple of it.
+    The estimate costs about half a second of runs; partitions of a study whose runs differ much take between a fraction and a multiple of it. ``threads`` are
+    those of a task, 0 for as many as this machine has.
+
+    Raises
+    ------
+    ValueError
+        For ``seconds`` that are not above zero, or a negative number of ``threads``.
     """
     if not isinstance(plan, (Sweep, Ida)):
         raise TypeError(f"plan is of {type(plan).__name__}; give a Sweep or an Ida")
     seconds = number("seconds", seconds)
     if not seconds > 0.0:
         raise ValueError(f"seconds = {seconds}; give a time above zero")
+    if whole("threads", threads) < 0:
+        raise ValueError(f"threads = {threads}; give a number from 0 on")
     length, threads = len(plan), threads or os.cpu_count() or 1
     pieces, rows, spent = 8, 4, 0.0
     most = max(1, length // pieces)
@@ -93,6 +101,11 @@ def frame(plan: Plan, *, rows: range | None = None, partition_size: int | None =
         Rows of a partition; chosen by :func:`partition_size` unless given.
     threads : int
         Threads of a task: 1 where workers have one thread a core, as those of a ``LocalCluster`` with ``threads_per_worker=1``.
+
+    Raises
+    ------
+    ValueError
+        For ``rows`` that are empty or not in the study, or a ``partition_size`` below 1.
     """
     import dask.dataframe as dd
     from dask.base import tokenize
@@ -134,6 +147,11 @@ def to_parquet(
     """Runs a study into a folder of Parquet files, a file per partition, by the present client; no worker holds more than its partition.
 
     Arguments as of :func:`frame`; ``options`` are those of ``dask.dataframe.DataFrame.to_parquet``.
+
+    Raises
+    ------
+    FileExistsError
+        For a folder that has Parquet files, unless ``overwrite`` or ``append`` is given.
     """
     path = os.fspath(folder)
     is_kept = options.get("overwrite") or options.get("append")
