@@ -370,9 +370,15 @@ pub struct Sweep {
 impl Sweep {
     /// The table of the results.
     pub fn table(&self) -> PathBuf {
-        let name = || self.file.file_stem().map_or_else(|| "sweep".into(), |stem| stem.to_string_lossy());
-        let own = || self.shard.map_or_else(|| "sweep.csv".into(), |shard| format!("{}-{shard}.csv", name()));
-        self.out.clone().unwrap_or_else(|| own().into())
+        let own = || match self.shard {
+            None => "sweep.csv".into(),
+            Some(shard) => {
+                let mut name = self.file.file_stem().unwrap_or("sweep".as_ref()).to_os_string();
+                name.push(format!("-{shard}.csv"));
+                name.into()
+            }
+        };
+        self.out.clone().unwrap_or_else(own)
     }
 }
 

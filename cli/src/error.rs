@@ -7,6 +7,7 @@ use rocking::studies::OptionOutOfRange;
 use rocking::{RecordError, SceneFileError, SolveError};
 use rocking_codegen::joints::JointsError;
 use std::fmt;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// Why a command failed. A path comes first, then what is wrong with it.
@@ -86,6 +87,9 @@ pub enum Failure {
     /// A small table is written as CSV alone.
     #[error("{}: curves and shares are written as CSV; give a name that ends in .csv", .0.display())]
     OnlyCsv(PathBuf),
+    /// A report is written as HTML alone.
+    #[error("{}: a report is a web page; give a name that ends in .html", .0.display())]
+    NoPage(PathBuf),
     /// A record is written as CSV alone.
     #[error("{}: a record is written as CSV; give a name that ends in .csv", .0.display())]
     RecordIsCsv(PathBuf),
@@ -175,6 +179,14 @@ pub fn at<E: ToString>(failure: fn(PathBuf, String) -> Failure, path: &Path) -> 
 }
 
 impl Failure {
+    /// The failure of reading an unfinished table.
+    pub fn part(path: &Path) -> impl Fn(std::io::Error) -> Failure {
+        move |error| match error.kind() {
+            ErrorKind::NotFound => Failure::File(path.into(), "it was removed while its rows were made".into()),
+            _ => Failure::Part(path.into(), error.to_string()),
+        }
+    }
+
     /// The failure of reading a scene, with its text if it can be shown.
     pub fn scene(error: SceneFileError) -> Failure {
         let source_text = match places(&error).first() {

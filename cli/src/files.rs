@@ -27,12 +27,26 @@ pub fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// An empty temporary file in `folder`. Errors do not have its name, which says nothing to users.
+/// An empty temporary file in `folder`, with the permissions of any new file. Errors do not have its name, which says nothing to users.
 pub fn temporary(folder: &Path) -> Result<NamedTempFile> {
-    NamedTempFile::new_in(folder).map_err(|error| {
+    let mut maker = tempfile::Builder::new();
+    #[cfg(unix)]
+    maker.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666)); // less the mask of the process
+    maker.tempfile_in(folder).map_err(|error| {
         let words = error.kind().to_string();
         Error::new(error.kind(), words)
     })
+}
+
+/// Gives a complete temporary file its name. A file that has this name is replaced, and its permissions stay.
+pub fn put_in_place(file: NamedTempFile, place: &Path) -> Result<()> {
+    keep_permissions(file.path(), place)?;
+    file.persist(place).map(|_| ()).map_err(|error| error.error)
+}
+
+/// Gives `new` the permissions of the file `old` that it is to replace, if there is one.
+pub fn keep_permissions(new: &Path, old: &Path) -> Result<()> {
+    std::fs::metadata(old).map_or(Ok(()), |old| std::fs::set_permissions(new, old.permissions()))
 }
 
 /// A temporary file in `folder`, with all that `write` writes.
@@ -42,17 +56,5 @@ pub fn fill(folder: &Path, write: impl FnOnce(&mut BufWriter<&mut File>) -> Resu
     write(&mut writer)?;
     writer.flush()?;
     drop(writer);
-    make_readable(&file)?;
     Ok(file)
-}
-
-/// Makes a temporary file readable for everybody (on Unix): temporary files are created private.
-#[cfg_attr(not(unix), allow(unused_variables, reason = "permissions are those of the folder"))]
-pub fn make_readable(file: &NamedTempFile) -> Result<()> {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        file.as_file().set_permissions(std::fs::Permissions::from_mode(0o644))?;
-    }
-    Ok(())
 }

@@ -1,7 +1,7 @@
 //! Files that the user names: written whole or not at all, never over an input.
 
 use crate::error::{Failure, at};
-use crate::files::{fill, folder_of};
+use crate::files::{fill, folder_of, put_in_place};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -9,8 +9,7 @@ use std::path::{Path, PathBuf};
 pub fn file(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Failure> {
     let place = &target(path)?;
     let file = fill(folder_of(place), |file| file.write_all(content.as_ref())).map_err(at(Failure::File, path))?;
-    file.persist(place).map_err(|error| at(Failure::File, path)(error.error))?;
-    Ok(())
+    put_in_place(file, place).map_err(at(Failure::File, path))
 }
 
 /// Removes what an earlier run has left beside its table, unless it is one of the inputs.
@@ -78,13 +77,32 @@ pub fn target(path: &Path) -> Result<PathBuf, Failure> {
             refused("results are written into files, not to standard output; `./-` is a file of this name")
         }
         Ok(found) if found.is_dir() => refused("a folder has this name"),
-        Ok(found) if !found.is_file() => refused("it is no file: results are put in place when they are whole"),
+        Ok(found) if !found.is_file() || is_stream(path) => {
+            refused("it is no file: results are put in place when they are whole")
+        }
+        Ok(found) if found.permissions().readonly() => refused("it is write-protected"),
         Ok(_) => path.canonicalize().map_err(at(Failure::File, path)),
         Err(_) if path.is_symlink() => refused("it is a link to a file that is not there"),
         Err(_) if is_folder() => refused("it is the name of a folder"),
         Err(_) if !folder_of(path).is_dir() => refused("there is no such folder"),
         Err(_) => Ok(path.into()),
     }
+}
+
+/// Whether a path such as `/dev/stdout` leads to an open file of a process. What stands in that file would be lost if another one got its name.
+fn is_stream(path: &Path) -> bool {
+    const OPEN_FILES: [&str; 2] = ["/proc", "/dev/fd"];
+    let mut path = path.to_path_buf();
+    // As many links as a system follows.
+    for _ in 0..40 {
+        let folder = folder_of(&path).canonicalize().unwrap_or_default();
+        if OPEN_FILES.iter().any(|files| folder.starts_with(files)) {
+            return true;
+        }
+        let Ok(next) = path.read_link() else { break };
+        path = folder.join(next);
+    }
+    false
 }
 
 /// Whether two paths name the same file, which need not exist yet.

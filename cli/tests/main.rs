@@ -23,6 +23,8 @@ mod validity;
 
 // What a run leaves, and what is printed.
 mod figures;
+#[cfg(unix)]
+mod files;
 mod plots;
 mod printed;
 mod report;

@@ -48,11 +48,61 @@ impl Drop for Draft {
 
 /// Removes the drafts of a folder whose writers were killed. One that cannot be removed harms nothing.
 pub fn remove_abandoned(folder: &Path) {
-    let is_draft = |path: &PathBuf| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(PREFIX));
+    let is_draft = |path: &PathBuf| path.file_name().is_some_and(|name| is_name(&name.to_string_lossy()));
     let drafts = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()).filter(is_draft);
     for path in drafts.filter(|path| cfg!(unix) && path.is_file()) {
         if File::open(&path).is_ok_and(|file| !is_locked_by_others(&file)) {
             let _ = std::fs::remove_file(&path);
+        }
+    }
+}
+
+/// Whether a file has the name of a draft: the prefix, and two numbers.
+fn is_name(name: &str) -> bool {
+    let numbers = name.strip_prefix(PREFIX).and_then(|numbers| numbers.split_once('-'));
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|sign| sign.is_ascii_digit());
+    numbers.is_some_and(|(process, count)| is_number(process) && is_number(count))
+}
+
+/// The lock of a folder, as long as a run is written into it. On systems that cannot lock a folder it holds nothing.
+#[derive(Debug)]
+pub struct FolderLock(#[expect(dead_code, reason = "keeps the lock")] Option<File>);
+
+impl FolderLock {
+    /// Locks a folder; `None` if another run has locked it.
+    pub fn of(folder: &Path) -> Option<FolderLock> {
+        let opened = File::open(folder).ok().filter(|_| cfg!(unix));
+        let is_free = opened.as_ref().is_none_or(|file| !is_locked_by_others(file));
+        is_free.then_some(FolderLock(opened))
+    }
+}
+
+/// Files that are changed, with a second name of what was there before, if anything was: if something fails, it comes back.
+#[derive(Default)]
+pub struct Replaced(Vec<(PathBuf, Option<Draft>)>);
+
+impl Replaced {
+    /// Keeps a file before it is made, replaced or removed.
+    pub fn keep(&mut self, path: &Path) -> Result<(), Error> {
+        let keep = || {
+            let (kept, _) = Draft::create(path.parent().unwrap_or(Path::new("")))?;
+            std::fs::remove_file(&kept.path)?;
+            // A second name of the file takes no room; where the system has none, a copy serves.
+            std::fs::hard_link(path, &kept.path).or_else(|_| std::fs::copy(path, &kept.path).map(drop))?;
+            Ok::<Draft, Error>(kept)
+        };
+        let kept = path.is_file().then(keep).transpose()?;
+        self.0.push((path.into(), kept));
+        Ok(())
+    }
+
+    /// Puts all back as it was, as far as the system allows it.
+    pub fn restore(self) {
+        for (path, kept) in self.0.iter().rev() {
+            let _ = match kept {
+                Some(kept) => std::fs::rename(&kept.path, path),
+                None => std::fs::remove_file(path),
+            };
         }
     }
 }
@@ -72,12 +122,38 @@ mod tests {
         std::fs::create_dir_all(&folder).expect("a folder");
         let abandoned = folder.join(format!("{PREFIX}1-1"));
         std::fs::write(&abandoned, "half a file").expect("written");
+        let others = ["notes.txt", "1", "1-", "1-x"].map(|end| folder.join(format!("{PREFIX}{end}")));
+        others.iter().for_each(|file| std::fs::write(file, "of the user").expect("written"));
         let (draft, _) = Draft::create(&folder).expect("a draft");
         remove_abandoned(&folder);
         assert!(abandoned.exists() != cfg!(unix) && draft.path.exists());
+        assert!(others.iter().all(|file| file.exists()));
         let path = draft.path.clone();
         drop(draft);
         assert!(!path.exists());
+        std::fs::remove_dir_all(&folder).expect("removed");
+    }
+
+    #[test]
+    fn files_come_back_as_they_were() {
+        let folder = std::env::temp_dir().join(format!("rocking-replaced-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder");
+        let [replaced, removed, made] = ["replaced", "removed", "made"].map(|name| folder.join(name));
+        for file in [&replaced, &removed] {
+            std::fs::write(file, "old").expect("written");
+        }
+        let mut kept = Replaced::default();
+        for file in [&replaced, &removed, &made] {
+            kept.keep(file).expect("kept");
+        }
+        std::fs::remove_file(&removed).expect("removed");
+        let (draft, _) = Draft::create(&folder).expect("a draft");
+        std::fs::rename(&draft.path, &replaced).expect("renamed");
+        std::fs::write(&made, "new").expect("written");
+        kept.restore();
+        let text = |file: &Path| std::fs::read_to_string(file).unwrap_or_default();
+        assert_eq!([text(&replaced), text(&removed)], ["old", "old"]);
+        assert!(!made.exists() && std::fs::read_dir(&folder).expect("a folder").count() == 2);
         std::fs::remove_dir_all(&folder).expect("removed");
     }
 }

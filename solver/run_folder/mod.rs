@@ -24,9 +24,9 @@ pub use digest::Digest;
 pub use read::{Options, Results};
 pub use write::{Folder, Run};
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 use std::io::Error;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// The files of a run, in the order in which they are put in place: the summary comes last, as a sign that all files are there.
 pub const FILES: [&str; 3] = ["response.csv", "events.json", "summary.json"];
@@ -40,10 +40,16 @@ const STATE_COLUMNS: [&str; 7] = ["x", "y", "vx", "vy", "normal", "tangential", 
 /// The scene file as it was read, kept so that the folder describes the run completely.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 pub struct SceneText {
-    /// The path of the file, as it was given.
+    /// The path of the file, as it was given; as text in the folder.
+    #[serde(serialize_with = "text_of")]
     pub file: PathBuf,
     /// The text of the file.
     pub text: String,
+}
+
+/// A path as text: JSON has no other signs than those of UTF-8.
+fn text_of<S: Serializer>(path: &Path, to: S) -> Result<S::Ok, S::Error> {
+    to.collect_str(&path.display())
 }
 
 /// Why a folder is refused.
@@ -62,6 +68,18 @@ pub enum FolderError {
     #[error("{}: a folder has this name; choose a folder that can be written to", path.display())]
     Taken {
         /// The path of the folder.
+        path: PathBuf,
+    },
+    /// A file of the folder is write-protected.
+    #[error("{}: it is write-protected; choose a folder that can be written to", path.display())]
+    Protected {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Another run is being written into the folder.
+    #[error("{}: another run is being written into it; wait for that, or choose a folder that can be written to", path.display())]
+    Running {
+        /// The folder.
         path: PathBuf,
     },
     /// A file has the name of the folder.

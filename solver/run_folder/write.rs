@@ -1,7 +1,7 @@
 //! Writes the folder of a run: files under temporary names first, renamed once all are complete.
 
 use super::digest::{Digest, Digesting};
-use super::draft::{self, Draft};
+use super::draft::{self, Draft, FolderLock, Replaced};
 use super::read::text;
 use super::{COMPANIONS, FILES, FolderError, STATE_COLUMNS, SceneText};
 use crate::column::{Column, Stack};
@@ -15,7 +15,7 @@ use rocking_ground::{Description, Motion};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{BufWriter, Error, Write};
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// A finished run, to be written.
@@ -141,30 +141,39 @@ struct Summary<'a> {
     digests: BTreeMap<&'static str, Digest>,
 }
 
-/// The folder of a run's results, proved to be writable.
+/// The folder of a run's results, proved to be writable. As long as this value exists, no other run is written into the folder (on Unix).
 #[derive(Debug)]
-pub struct Folder(PathBuf);
+pub struct Folder {
+    path: PathBuf,
+    _lock: FolderLock,
+}
 
 impl Folder {
     /// Creates the folder if it is missing, and checks by a test file that it can be written to, before any work is done.
     ///
     /// # Errors
-    /// [`FolderError::Write`], [`FolderError::NoFolder`] or [`FolderError::Taken`]
+    /// [`FolderError::Write`], [`FolderError::NoFolder`], [`FolderError::Taken`], [`FolderError::Protected`], or [`FolderError::Running`] where another
+    /// [`Folder`] of this path exists.
     pub fn create(path: &Path) -> Result<Folder, FolderError> {
         if path.is_file() {
             return Err(FolderError::NoFolder { path: path.into() });
         }
         std::fs::create_dir_all(path).map_err(|source| FolderError::Write { path: path.into(), source })?;
+        let lock = FolderLock::of(path).ok_or_else(|| FolderError::Running { path: path.into() })?;
         draft::remove_abandoned(path);
-        let folder = Folder(path.into());
+        let folder = Folder { path: path.into(), _lock: lock };
         folder.draft(|_| Ok(()))?;
-        match FILES.iter().map(|name| path.join(name)).find(|file| file.is_dir()) {
-            Some(path) => Err(FolderError::Taken { path }),
-            None => Ok(folder),
+        for file in FILES.iter().map(|name| path.join(name)) {
+            match std::fs::metadata(&file) {
+                Ok(found) if found.is_dir() => return Err(FolderError::Taken { path: file }),
+                Ok(found) if found.permissions().readonly() => return Err(FolderError::Protected { path: file }),
+                _ => {}
+            }
         }
+        Ok(folder)
     }
 
-    /// Writes the files of a run: none is put in place before all are written. [`Results::read`](super::Results::read) reads runs that have rows and peaks:
+    /// Writes the files of a run: none is put in place before all are written, and if that fails, the folder is as it was. [`Results::read`](super::Results::read) reads runs that have rows and peaks:
     /// those with `output_dt` or `output_times`, of which everything is requested.
     ///
     /// # Errors
@@ -183,15 +192,25 @@ impl Folder {
         let of_run = run.summary(drafts.iter().map(|(name, draft)| (*name, draft.digest)).collect());
         let written = self.draft(|file| serde_json::to_writer_pretty(file, &Explicit(&of_run)).map_err(Into::into))?;
         drafts.push((summary, written));
-        let failed = |path: &Path, source: Error| FolderError::Write { path: path.into(), source };
-        for path in run.outdated.iter().map(|name| self.0.join(name)).filter(|path| path.is_file()) {
-            std::fs::remove_file(&path).map_err(|error| failed(&path, error))?;
+        self.put_in_place(&drafts, &run.outdated)
+    }
+
+    /// Gives complete files their names, and removes those that are outdated.
+    fn put_in_place(&self, drafts: &[(&str, Draft)], outdated: &[String]) -> Result<(), FolderError> {
+        let mut replaced = Replaced::default();
+        let mut change = |name: &str, change: &dyn Fn(&Path) -> std::io::Result<()>| {
+            let path = self.path.join(name);
+            let changed = replaced.keep(&path).and_then(|()| change(&path));
+            changed.map_err(|source| FolderError::Write { path, source })
+        };
+        let mut outdated = outdated.iter().filter(|name| self.path.join(name).is_file());
+        let removed = outdated.try_for_each(|name| change(name, &|path| std::fs::remove_file(path)));
+        let mut named = |(name, draft): &(&str, Draft)| change(name, &|path| std::fs::rename(&draft.path, path));
+        let changed = removed.and_then(|()| drafts.iter().try_for_each(&mut named));
+        if changed.is_err() {
+            replaced.restore();
         }
-        for (name, draft) in drafts {
-            let path = self.0.join(name);
-            std::fs::rename(&draft.path, &path).map_err(|error| failed(&path, error))?;
-        }
-        Ok(())
+        changed
     }
 
     /// The text of `summary.json`.
@@ -199,7 +218,7 @@ impl Folder {
     /// # Errors
     /// [`FolderError::Read`]
     pub fn summary(&self) -> Result<String, FolderError> {
-        text(&self.0.join("summary.json"))
+        text(&self.path.join("summary.json"))
     }
 
     /// A complete file in the folder under a temporary name, with what `write` writes.
@@ -208,14 +227,14 @@ impl Folder {
         write: impl FnOnce(&mut BufWriter<Digesting<File>>) -> std::io::Result<()>,
     ) -> Result<Draft, FolderError> {
         let filled = || {
-            let (mut draft, file) = Draft::create(&self.0)?;
+            let (mut draft, file) = Draft::create(&self.path)?;
             let mut writer = BufWriter::new(Digesting { inner: file, digest: draft.digest });
             write(&mut writer)?;
             writer.flush()?;
             draft.digest = writer.get_ref().digest;
             Ok(draft)
         };
-        filled().map_err(|source| FolderError::Write { path: self.0.clone(), source })
+        filled().map_err(|source| FolderError::Write { path: self.path.clone(), source })
     }
 }
 

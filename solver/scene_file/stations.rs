@@ -13,6 +13,7 @@ use rocking_ground::{
     Direction, Excitation, Motion, Record, RecordError, TextOptions, by_number, record_and_component,
 };
 use std::collections::BTreeMap;
+use std::io::{Error, ErrorKind};
 use std::path::{Path, PathBuf};
 
 /// A component of a record: a file.
@@ -75,14 +76,20 @@ pub(crate) fn files_in(folder: &Path) -> std::io::Result<Vec<String>> {
     let mut files = Vec::new();
     for entry in std::fs::read_dir(folder)? {
         let entry = entry?;
-        let file = entry.file_name().to_string_lossy().into_owned();
+        let name = entry.file_name();
+        let file = name.to_string_lossy().into_owned();
         let extension = file.rsplit_once('.').map_or("", |(_, extension)| extension);
         let is_other = NO_ACCELERATION.iter().any(|other| extension.eq_ignore_ascii_case(other))
             || file.to_ascii_lowercase().starts_with("readme")
             || file.starts_with(['.', '_']);
-        if !entry.path().is_dir() && !is_other {
-            files.push(file);
+        if entry.path().is_dir() || is_other {
+            continue;
         }
+        if name.to_str().is_none() {
+            let problem = format!("the name of the file {file} is not UTF-8, and no scene can name it; rename it");
+            return Err(Error::new(ErrorKind::InvalidFilename, problem));
+        }
+        files.push(file);
     }
     files.sort();
     Ok(files)

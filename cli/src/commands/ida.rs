@@ -45,7 +45,7 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     }
     let columns = columns(ida);
     let (table, resumed) = filled(request, ida, digest(inputs)?, &target, &columns, &threads)?;
-    let (counted, first_error) = Tally::of(&table.part).map_err(at(Failure::Part, &table.part))?;
+    let (counted, first_error) = Tally::of(&table.part).map_err(Failure::part(&table.part))?;
     let failure = |is_kept| {
         let first = first_error.clone().filter(|_| counted.errors == ida.len())?;
         Some(Failure::NoResult { table: out.clone(), points: ida.len(), first, is_kept })

@@ -20,7 +20,10 @@ pub fn init(file: &Path, blocks: usize, record: Option<&Path>, force: bool) -> R
     output::file(file, scene(blocks, record.as_ref()))?;
     let lacking =
         record.and_then(|record| record.lacking).map_or(String::new(), |lacking| format!("first: {lacking}\n"));
-    let (file, word) = (shown(file), shell_word(&shown(file)));
+    // An option begins with a hyphen.
+    let word =
+        if file.as_os_str().as_encoded_bytes().starts_with(b"-") { Path::new(".").join(file) } else { file.into() };
+    let (file, word) = (shown(file), shell_word(&shown(&word)));
     print(&format!(
         "wrote {file}: open it in an editor and put in your column and ground motion, then\n\
          \x20 rocking check {word}            tells what it says and what follows from it\n\
@@ -45,7 +48,9 @@ impl NamedRecord {
         let found = std::fs::canonicalize(record).map_err(at(Failure::Input, record))?;
         let folder = folder_of(file);
         let folder = std::fs::canonicalize(folder).unwrap_or_else(|_| folder.into());
-        let name = found.strip_prefix(&folder).unwrap_or(&found).display().to_string();
+        let name = found.strip_prefix(&folder).unwrap_or(&found);
+        let no_text = "a scene cannot name it, as its name is not UTF-8; rename it".to_string();
+        let name = name.to_str().ok_or(Failure::Input(record.into(), no_text))?.to_string();
         // A scene may still give the unit and the interval that a file does not state.
         let read = RecordFile::read(&bytes, &TextOptions::default()).and_then(RecordFile::into_record);
         let lacking = read.as_ref().err().map(|error| format!("{}: {error}", shown(record)));

@@ -6,7 +6,7 @@
 use crate::commands::sweep::{OUTCOME, TableDigest, columns, digest_file, inputs_of, is_row};
 use crate::commands::{fractiles, probability};
 use crate::error::{Failure, at};
-use crate::files::{folder_of, make_readable, temporary};
+use crate::files::{folder_of, put_in_place, temporary};
 use crate::output;
 use crate::table::column::{Column, Rows, has_result};
 #[cfg(feature = "parquet")]
@@ -62,8 +62,7 @@ pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(),
         Some(expected) => format!("all points of {}", shown(expected.file)),
         None => "--sweep FILE would tell whether points after them are missing".into(),
     };
-    make_readable(&merged).map_err(failed)?;
-    merged.persist(target).map_err(|error| failed(error.error))?;
+    put_in_place(merged, &target).map_err(failed)?;
     let mut report = format!("wrote {rows} row(s) of {} table(s) to {}: {report}\n", tables.len(), shown(out));
     if let Some(ExpectedSweep { sweep, .. }) = &expected {
         report.push_str(&probability::write(sweep, &probability::of(sweep, out)?, out)?);

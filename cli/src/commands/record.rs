@@ -11,7 +11,7 @@ use crate::{output, plot};
 use rocking::ground::{Measure, Measures, RecordFile, TextOptions};
 use rocking::intensity::{DEFAULT_DAMPING, Intensity};
 use rocking::{Column, DEFAULT_GRAVITY, Record, RecordError};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -177,6 +177,7 @@ pub fn read(path: &Path, options: &TextOptions) -> Result<RecordFile, Problem> {
 /// The description of a record, as text or JSON.
 #[derive(Debug, Serialize)]
 pub struct Description {
+    #[serde(serialize_with = "text_of")]
     pub file: PathBuf,
     pub format: rocking::ground::Format,
     pub title: String,
@@ -211,6 +212,11 @@ pub struct Description {
     /// Whether the displacement is largest at the end.
     pub drifts: bool,
     pub warnings: Vec<String>,
+}
+
+/// A path as text: JSON has no other signs than those of UTF-8.
+fn text_of<S: Serializer>(path: &Path, to: S) -> Result<S::Ok, S::Error> {
+    to.collect_str(&path.display())
 }
 
 /// A spectral acceleration.

@@ -7,6 +7,7 @@ use crate::terminal::print;
 use crate::text::shown;
 use rocking::run_folder::{COMPANIONS, FILES, Results};
 use serde_json::Value;
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 /// The page's name in a run's folder.
@@ -34,6 +35,10 @@ fn inputs_of(results: &Results) -> Vec<PathBuf> {
 /// Writes the page of the run in `folder` to `file`, or else beside its results.
 pub fn report(folder: &Path, file: Option<&Path>) -> Result<(), Failure> {
     let file = file.map_or_else(|| folder.join(NAME), Path::to_path_buf);
+    let is_page = |end: &OsStr| ["html", "htm"].iter().any(|page| end.eq_ignore_ascii_case(page));
+    if !file.extension().is_some_and(is_page) {
+        return Err(Failure::NoPage(file));
+    }
     let of_run = FILES.into_iter().chain([COMPANIONS]).map(|name| folder.join(name)).collect::<Vec<_>>();
     output::check_not_inputs(&of_run, [file.clone()])?;
     let results = Results::read(folder)?;

@@ -53,10 +53,12 @@ pub fn run(request: &Run) -> Result<(), Failure> {
     if !request.quiet {
         warn(&finished.warnings);
     }
+    // Before anything is printed: a pipe that is closed loses no figure.
+    let drawn = drawn(request);
     if !request.quiet && !request.json {
         print(&account(&scene, &response, &followed))?;
     }
-    let written = [names_of_results(out), drawn(request)?].concat();
+    let written = [names_of_results(out), drawn?].concat();
     if request.quiet {
         return Ok(());
     }

@@ -6,7 +6,7 @@
 use crate::arguments;
 use crate::commands::probability::{self, Lost};
 use crate::commands::{fractiles, spectrum};
-use crate::error::{Failure, at};
+use crate::error::Failure;
 use crate::output;
 use crate::plot::Paper;
 use crate::progress::Progress;
@@ -44,7 +44,7 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
     }
     let digest = TableDigest::of(&sweep, &request.file)?;
     let (table, resumed) = filled(request, &sweep, digest, &target, &columns, &threads)?;
-    let (tally, first_error) = Tally::of(&table.part).map_err(at(Failure::Part, &table.part))?;
+    let (tally, first_error) = Tally::of(&table.part).map_err(Failure::part(&table.part))?;
     let rows = points(request, &sweep).len();
     let failure = |first: String, is_kept| Failure::NoResult { table: out.clone(), points: rows, first, is_kept };
     let first_of_all = first_error.as_ref().filter(|_| tally.errors == rows);
@@ -63,11 +63,12 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
     for by_product in [probability::table(&out), fractiles::table(&out)] {
         output::remove(&by_product, &inputs)?;
     }
-    let drawn =
-        request.plot.as_ref().map_or(Ok(String::new()), |picture| spectrum::draw(&out, picture, &Paper::default()))?;
     let lost = if made.probabilities { probability::of(&sweep, &out)? } else { Vec::new() };
     let probabilities = probability::write(&sweep, &lost, &out)?;
     let fractiles = if made.fractiles { fractiles::write(&sweep, &out)? } else { String::new() };
+    // Last: where a figure cannot be drawn, the tables and the counts are there.
+    let drawn =
+        request.plot.as_ref().map_or(Ok(String::new()), |picture| spectrum::draw(&out, picture, &Paper::default()));
     if request.json {
         json(&Counts { tally: &tally, lost })?;
     } else if !request.quiet {
@@ -75,8 +76,10 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
         // If all rows are errors, the failure below states the first one.
         let failed = first_error.as_ref().filter(|_| tally.errors < rows);
         let failed = failed.map_or(String::new(), |error| format!("the first error: {error}\n"));
-        print(&format!("{tally}{failed}{wrote}{probabilities}{fractiles}{drawn}"))?;
+        let figures = drawn.as_deref().unwrap_or_default();
+        print(&format!("{tally}{failed}{wrote}{probabilities}{fractiles}{figures}"))?;
     }
+    drawn?;
     first_of_all.map_or(Ok(()), |first| Err(failure(first.clone(), false)))
 }
 
@@ -227,8 +230,9 @@ fn cell(row: &Row, field: Field, ask: Ask) -> String {
 
 /// The file beside a shard's table that holds the digest of the sweep.
 pub fn digest_file(table: &Path) -> PathBuf {
-    let name = table.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-    table.with_file_name(format!("{name}.digest"))
+    let mut name = table.file_name().unwrap_or_default().to_os_string();
+    name.push(".digest");
+    table.with_file_name(name)
 }
 
 /// Digest of everything that determines the rows of a table, the version of the program included.

@@ -10,10 +10,12 @@ use super::column::Column;
 #[cfg(feature = "parquet")]
 use super::parquet;
 use crate::error::{Failure, at};
+use crate::files::keep_permissions;
 use crate::progress::Progress;
 use csv::StringRecord;
 use rayon::ThreadPool;
 use rocking::in_order;
+use std::ffi::OsString;
 use std::fs::{File, TryLockError};
 #[cfg(feature = "parquet")]
 use std::io::BufWriter;
@@ -50,14 +52,22 @@ impl Growing {
         let mut header = csv::Writer::from_writer(Vec::new());
         header.write_record(columns.iter().map(|column| &column.name)).map_err(at(Failure::File, out))?;
         let header = header.into_inner().map_err(at(Failure::File, out))?;
-        let name = out.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-        let part = out.with_file_name(format!(".{name}.{fingerprint:016x}.part"));
-        let mut file =
-            File::options().read(true).write(true).create(true).truncate(false).open(&part).map_err(&failed)?;
-        // Two processes at once would mix their rows. On other systems a lock would also keep this program from reading the file.
-        if cfg!(unix) && matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
-            return Err(Failure::Running(out.into()));
-        }
+        let mut name = OsString::from(".");
+        name.push(out.file_name().unwrap_or_default());
+        name.push(format!(".{fingerprint:016x}.part"));
+        let part = out.with_file_name(name);
+        let mut file = loop {
+            let mut options = File::options();
+            let file = options.read(true).write(true).create(true).truncate(false).open(&part).map_err(&failed)?;
+            // Two processes at once would mix their rows. On other systems a lock would also keep this program from reading the file.
+            if cfg!(unix) && matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
+                return Err(Failure::Running(out.into()));
+            }
+            // Another process may have finished the file, and given it the name of the table, before it was locked.
+            if part.exists() {
+                break file;
+            }
+        };
         let first = points.start;
         let is_row = |row: &StringRecord, point: usize| {
             points.contains(&point) && row.len() == columns.len() && row[0] == *point.to_string() && is_row(row, point)
@@ -114,12 +124,16 @@ impl Growing {
         let failed = at(Failure::File, &self.out);
         self.file.flush().map_err(&failed)?;
         match format {
-            Format::Csv => std::fs::rename(&self.part, &self.out).map_err(failed),
+            Format::Csv => {
+                keep_permissions(&self.part, &self.out).map_err(&failed)?;
+                std::fs::rename(&self.part, &self.out).map_err(failed)
+            }
             #[cfg(feature = "parquet")]
             Format::Parquet => {
                 let whole = self.part.with_extension("whole");
                 let written = File::create(&whole)
                     .and_then(|file| parquet::from_csv(&self.part, columns, BufWriter::new(file)))
+                    .and_then(|()| keep_permissions(&whole, &self.out))
                     .and_then(|()| std::fs::rename(&whole, &self.out));
                 if let Err(error) = written {
                     // The incomplete Parquet file is of no use; the hidden CSV file is kept.
