@@ -2,10 +2,10 @@
 
 use crate::component::{Direction, points_down};
 use crate::motion::Motion;
-use crate::piece::Piece;
+use crate::piece::{Line, Piece};
 use crate::record::Record;
 use crate::segment::Segment;
-use crate::spans::{divide, overlay};
+use crate::spans::{Span, divide, overlay};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
@@ -98,6 +98,15 @@ impl Excitation {
         };
         segments.clear();
         segments.reserve(room(&self.horizontal) + room(&self.vertical));
+        // A record has many lines: they are compared as lines, and not collected in a vector first.
+        if let (Some(Motion::Record(record)), None) = (&self.horizontal, &self.vertical) {
+            let mut before = Line::default();
+            return divide(record.lines(), 0.0, t_end, |start, end, line| {
+                let (horizontal, jumps) = (line.piece(), line.jumps_from(before, start));
+                segments.push(Segment { start, end, horizontal, vertical: Piece::Zero, jumps });
+                before = line;
+            });
+        }
         let mut push = |start: f64, end: f64, horizontal: Piece, vertical: Piece| {
             let (before, quiet) = (segments.last(), Segment::QUIET);
             let before = before.unwrap_or(&quiet);
@@ -106,15 +115,14 @@ impl Excitation {
             segments.push(Segment { start, end, horizontal, vertical, jumps });
         };
         let pieces = |motion: &Option<Motion>| motion.as_ref().map(Motion::pieces).unwrap_or_default();
-        let mut alone = |start: f64, end: f64, piece: Piece| push(start, end, piece, Piece::Zero);
         match (&self.horizontal, &self.vertical) {
-            // A record has many pieces: they are not collected in a vector first.
-            (Some(Motion::Record(record)), None) => divide(record.pieces(), 0.0, t_end, &mut alone),
-            (horizontal, None) => divide(pieces(horizontal).into_iter(), 0.0, t_end, &mut alone),
+            (horizontal, None) => {
+                let spans = pieces(horizontal).into_iter().map(|Span { start, end, piece }| (start, end, piece));
+                divide(spans, 0.0, t_end, |start, end, piece| push(start, end, piece, Piece::Zero));
+            }
             (horizontal, vertical) => {
                 overlay(&[pieces(horizontal), pieces(vertical)], 0.0, t_end, |start, end, both| {
-                    let [horizontal, vertical] =
-                        [0, 1].map(|motion: usize| std::mem::replace(&mut both[motion], Piece::Zero));
+                    let [horizontal, vertical] = [0, 1].map(|motion: usize| std::mem::take(&mut both[motion]));
                     push(start, end, horizontal, vertical);
                 })
             }

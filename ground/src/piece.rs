@@ -7,11 +7,12 @@ use std::sync::Arc;
 ///
 /// Parameters: `value` and `amplitude [m/s²]`, `slope [m/s³]`, `velocity [m/s]`, `omega [rad/s]`, `start` and `centre [s]`, `phase [rad]`;
 /// `gamma` is dimensionless.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "fields are the parameters above, with one meaning in all variants")]
 pub enum Piece {
     /// No acceleration.
+    #[default]
     Zero,
     /// `value + slope (t - start)`
     Linear { value: f64, slope: f64, start: f64 },
@@ -273,23 +274,8 @@ impl Piece {
     }
 
     /// Whether the acceleration changes by more than rounding when `before` gives way to this piece at `t`.
-    #[inline]
     pub fn jumps_from(&self, before: &Piece, t: f64) -> bool {
-        match (before, self) {
-            (Piece::Zero, Piece::Zero) => false,
-            // A shortcut for records, which have many pieces.
-            (
-                &Piece::Linear { value: old, slope: before, start: since },
-                &Piece::Linear { value: new, slope, start },
-            ) => is_jump(old + before * (t - since), new + slope * (t - start), old.abs().max(new.abs())),
-            _ => self.jumps_from_any(before, t),
-        }
-    }
-
-    fn jumps_from_any(&self, before: &Piece, t: f64) -> bool {
-        let (old, new) = (before.value(t), self.value(t));
-        let size = self.size().max(before.size());
-        is_jump(old, new, size)
+        is_jump(before.value(t), self.value(t), self.size().max(before.size()))
     }
 
     /// Scale of the acceleration `[m/s²]`, against which rounding is judged.
@@ -303,6 +289,33 @@ impl Piece {
             Piece::Gabor { velocity, omega, .. } => (velocity * omega).abs() * 1e6,
             Piece::Sum(ref terms) => terms.iter().map(Piece::size).sum(),
         }
+    }
+}
+
+/// The acceleration of a record between two samples: [`Piece::Linear`], or [`Piece::Zero`] where it is zero. Records have many of them.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Line {
+    /// Acceleration at `start` `[m/s²]`.
+    pub value: f64,
+    /// Change of the acceleration per time `[m/s³]`.
+    pub slope: f64,
+    /// `[s]`
+    pub start: f64,
+}
+
+impl Line {
+    /// The line as a piece of any motion.
+    #[inline]
+    pub fn piece(self) -> Piece {
+        let Line { value, slope, start } = self;
+        if value == 0.0 && slope == 0.0 { Piece::Zero } else { Piece::Linear { value, slope, start } }
+    }
+
+    /// As [`Piece::jumps_from`].
+    #[inline]
+    pub fn jumps_from(self, before: Line, t: f64) -> bool {
+        let at = |line: Line| line.value + line.slope * (t - line.start);
+        is_jump(at(before), at(self), before.value.abs().max(self.value.abs()))
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::bounds::{LARGEST_ACCELERATION, LONGEST_INTERVAL, SHORTEST_INTERVAL};
 use crate::component::{Direction, record_and_component};
 use crate::error::RecordError;
-use crate::piece::Piece;
+use crate::piece::Line;
 use crate::plausibility::{LEAST_SAMPLES_OF_SHAKING, doubtful_interval, doubtful_samples, missing_sample};
 use crate::spans::Span;
 use crate::unit::AccelerationUnit;
@@ -338,17 +338,18 @@ impl Record {
         self.start + sample as f64 * self.dt
     }
 
-    /// The linear pieces between samples, in order of time.
-    pub(crate) fn pieces(&self) -> impl Iterator<Item = Span> {
-        self.accel.windows(2).enumerate().map(|(index, pair)| {
+    /// The lines between samples, each with start and end `[s]`, in order of time.
+    pub(crate) fn lines(&self) -> impl Iterator<Item = (f64, f64, Line)> {
+        let pairs = self.accel.iter().zip(&self.accel[1..]).enumerate();
+        pairs.map(|(index, (a, b))| {
             let (start, end) = (self.time(index), self.time(index + 1));
-            let piece = match pair {
-                [a, b] if *a == 0.0 && *b == 0.0 => Piece::Zero,
-                [a, b] => Piece::Linear { value: *a, slope: (b - a) / (end - start), start },
-                _ => Piece::Zero,
-            };
-            Span { start, end, piece }
+            (start, end, Line { value: *a, slope: (b - a) / (end - start), start })
         })
+    }
+
+    /// [`Record::lines`] as spans of any motion.
+    pub(crate) fn pieces(&self) -> impl Iterator<Item = Span> {
+        self.lines().map(|(start, end, line)| Span { start, end, piece: line.piece() })
     }
 
     /// Acceleration at `t [s]`, `[m/s²]`.

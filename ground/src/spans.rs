@@ -60,12 +60,18 @@ pub fn overlay(motions: &[Spans], from: f64, to: f64, mut visit: impl FnMut(f64,
     }
 }
 
-/// As [`overlay`], for one motion and finite bounds: calls `visit(start, end, piece)`. The pieces are moved, not copied.
+/// As [`overlay`], for one motion and finite bounds: calls `visit(start, end, piece)`, with [`Default`] outside the spans. Spans are start, end and piece;
+/// the pieces are moved, not copied.
 #[inline(always)]
-pub fn divide(spans: impl Iterator<Item = Span>, from: f64, to: f64, mut visit: impl FnMut(f64, f64, Piece)) {
+pub fn divide<P: Default>(
+    spans: impl Iterator<Item = (f64, f64, P)>,
+    from: f64,
+    to: f64,
+    mut visit: impl FnMut(f64, f64, P),
+) {
     let same = |t: f64| t + TIME_TOLERANCE * t.abs().max(1.0);
     let (mut t, mut now) = (from, same(from));
-    for Span { start, end, piece } in spans {
+    for (start, end, piece) in spans {
         if end <= now {
             continue;
         }
@@ -77,7 +83,7 @@ pub fn divide(spans: impl Iterator<Item = Span>, from: f64, to: f64, mut visit: 
             if until <= now {
                 return;
             }
-            visit(t, until, Piece::Zero);
+            visit(t, until, P::default());
             (t, now) = (until, same(until));
             if end <= now {
                 continue;
@@ -91,7 +97,7 @@ pub fn divide(spans: impl Iterator<Item = Span>, from: f64, to: f64, mut visit: 
         (t, now) = (until, same(until));
     }
     if t < to && to > now {
-        visit(t, to, Piece::Zero);
+        visit(t, to, P::default());
     }
 }
 
@@ -139,9 +145,8 @@ mod tests {
         for case in cases {
             for to in [4.0, 0.6, 1.0, 1.0 + 1e-15, 1e-15] {
                 let mut found = Vec::new();
-                divide(spans(case).into_iter(), 0.0, to, |start, end, piece| {
-                    found.push([start, end, piece.value(0.0), 0.0])
-                });
+                let own = spans(case).into_iter().map(|Span { start, end, piece }| (start, end, piece));
+                divide(own, 0.0, to, |start, end, piece| found.push([start, end, piece.value(0.0), 0.0]));
                 assert_eq!(found, divided([case, &[]], 0.0, to), "{case:?} {to}");
             }
         }

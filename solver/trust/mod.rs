@@ -166,7 +166,12 @@ pub fn follow_run_observed(
     asked: TrustOptions,
     progress: impl Fn(f64) -> ControlFlow<()> + Sync,
 ) -> Result<Trust, SolveError> {
-    let run = |scene: &Scene| Simulator::new().run_observed(scene, &progress);
+    let run = |scene: &Scene| {
+        let mut response = Simulator::new().run_observed(scene, &progress)?;
+        // What is compared are rows and verdicts, and nine lists of events would fill the memory.
+        response.events = Vec::new();
+        Ok(response)
+    };
     let Followed { own, runs } = Followed::by(&compared(scene, response.t_final), run)?;
     let companion = |(change, run): &(Change, Option<Response>)| {
         let comparison = run.as_ref().map(|run| Comparison::of(&scene.column, &own, run));

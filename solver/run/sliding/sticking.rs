@@ -133,7 +133,7 @@ impl<'p> Sticking<'p> {
             None => Departure::Beginning(transition::initial(&problem)),
         };
         let mut recorder = recorder::Recorder::new(&problem, departure.state(), rows);
-        if !is_beginning {
+        if !is_beginning || !self.problem.records_forces() {
             recorder = recorder.without_validity();
         }
         let leaving = event_loop(&problem, modes, departure, &mut recorder, &cones, progress)?;
