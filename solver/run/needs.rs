@@ -248,3 +248,25 @@ fn past_balance(theta: &[f64], balances: &[f64]) -> PerBlock<bool> {
 fn margin(theta: &[f64], balances: &[f64]) -> f64 {
     theta.iter().zip(balances).map(|(theta, balance)| balance - theta.abs()).fold(f64::INFINITY, f64::min)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An impact of a block that is past its balance counts if the block comes back, and not if it falls.
+    #[test]
+    fn impulses_of_a_fall_do_not_count() {
+        let column = Column::equal_blocks(1, 0.4, 1.6, 1.0, 9.81).expect("positive sizes");
+        let impulse = |tangential: f64| ContactForce { normal: 1.0, tangential, moment: 0.0 };
+        for (overturned, expected) in [(false, 0.5), (true, 0.25)] {
+            let mut needs = Needs::new(&column, 0.0, &[0.0]);
+            needs.past_since = 1.0;
+            for (t, tangential) in [(0.5, 0.25), (1.5, -0.5)] {
+                needs.add_impulse(0, &impulse(tangential), &State { t, ..State::at_rest(1) });
+            }
+            let validity = needs.finish(overturned, 2.0, std::iter::empty());
+            let demand = validity.contacts[0].impulse_friction_demand.expect("known");
+            assert_eq!((demand.value, validity.until), (expected, if overturned { 1.0 } else { 2.0 }));
+        }
+    }
+}

@@ -117,14 +117,13 @@ pub fn fit(trials: &[Trial]) -> Maximum {
 /// Newton's method from `a = b = 0`, on standardised logarithms of the levels.
 fn climb(trials: &[Trial]) -> Probit {
     let total: f64 = trials.iter().map(|trial| trial.runs).sum();
-    let mean_of =
-        |f: &dyn Fn(f64) -> f64| trials.iter().map(|trial| trial.runs * f(libm::log(trial.level))).sum::<f64>() / total;
+    let logarithms: Vec<f64> = trials.iter().map(|trial| libm::log(trial.level)).collect();
+    let with_logarithms = || trials.iter().zip(&logarithms);
+    let mean_of = |f: &dyn Fn(f64) -> f64| with_logarithms().map(|(trial, x)| trial.runs * f(*x)).sum::<f64>() / total;
     let mean = mean_of(&|x| x);
     let spread = mean_of(&|x| (x - mean) * (x - mean)).sqrt();
-    let data: Vec<(f64, f64, f64)> = trials
-        .iter()
-        .map(|trial| ((libm::log(trial.level) - mean) / spread, trial.reached, trial.runs - trial.reached))
-        .collect();
+    let data: Vec<(f64, f64, f64)> =
+        with_logarithms().map(|(trial, x)| ((x - mean) / spread, trial.reached, trial.runs - trial.reached)).collect();
     let value = |[a, b]: [f64; 2]| -> f64 {
         data.iter().map(|(x, k, rest)| weighted(*k, a + b * x) + weighted(*rest, -a - b * x)).sum()
     };
@@ -134,7 +133,8 @@ fn climb(trials: &[Trial]) -> Probit {
         let (mut gradient, mut curvature) = ([0.0; 2], [0.0; 3]);
         for (x, k, rest) in &data {
             let z = place[0] + place[1] * x;
-            let [up, down] = [mills(z), mills(-z)];
+            // Of the runs of a cloud, each with a level of its own, one of the two counts is zero.
+            let [up, down] = [(*k, z), (*rest, -z)].map(|(count, z)| if count > 0.0 { mills(z) } else { 0.0 });
             let push = k * up - rest * down;
             let bend = k * up * (z + up) + rest * down * (down - z);
             gradient = [gradient[0] + push, gradient[1] + push * x];

@@ -196,4 +196,13 @@ mod tests {
         assert_eq!(grown(None, None), (AGREEMENT / 1e-9, true));
         assert_eq!(grown(Some(5e-7), None), (AGREEMENT / 1e-9, true));
     }
+
+    /// Steps of fixed length have the error of their fourth power.
+    #[test]
+    fn steps_of_fixed_length_are_shortened_as_the_tolerance() {
+        let mut scene = Scene::new(Column::equal_blocks(1, 0.4, 1.6, 1.0, 9.81).expect("positive sizes"));
+        scene.options.step = 0.05;
+        let tighter = Change::Tolerance(1e-4).scene(&scene).expect("in range").options;
+        assert_eq!((tighter.step, tighter.rtol), (0.05 * 0.1, scene.options.rtol * 1e-4));
+    }
 }

@@ -117,4 +117,19 @@ mod tests {
             "overturns with 10 % more, collapses with 10 % less shaking"
         );
     }
+
+    /// Newmark's block, whose runs with changed motion cost more than those of rocking ones.
+    #[test]
+    fn fewer_changes_are_tried_where_blocks_slide() {
+        use crate::column::Column;
+        use crate::friction::Friction;
+        use rocking_ground::Motion;
+        let mut scene = Scene::new(Column::equal_blocks(1, 0.5, 1.0, 1.0, 9.81).expect("positive sizes"));
+        let pulse = Motion::Rectangular { amplitude: 0.3 * 9.81, start: 0.0, duration: 0.2 };
+        (scene.excitation.horizontal, scene.options.t_end) = (Some(pulse), 1.0);
+        let tried = |scene: &Scene| crate::trust::follow(scene).expect("runs").1.fold.expect("a fold").tried;
+        assert_eq!(tried(&scene), TRIED);
+        scene.friction = Some(Friction::uniform(0.2));
+        assert_eq!(tried(&scene), TRIED_WITH_SLIDING);
+    }
 }

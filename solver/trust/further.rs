@@ -51,3 +51,32 @@ impl Further {
         Ok(Further { runs: same.len(), others: same.iter().filter(|same| !**same).count() })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::column::Column;
+    use rocking_ground::Motion;
+    use std::sync::Mutex;
+
+    #[test]
+    fn changes_are_of_both_signs_and_evenly_spread() {
+        let mut scene = Scene::new(Column::equal_blocks(1, 0.4, 1.6, 1.0, 9.81).expect("positive sizes"));
+        scene.excitation.horizontal = Some(Motion::SinePulse { amplitude: 1.0, omega: 6.0, start: 0.0 });
+        let changes = Mutex::new(Vec::new());
+        let further = Further::follow(&scene, Verdict::Stands, |changed| {
+            let Some(Motion::SinePulse { amplitude, .. }) = changed.excitation.horizontal else { panic!("a pulse") };
+            changes.lock().expect("no panic").push(amplitude - 1.0);
+            crate::simulate(changed)
+        });
+        assert_eq!(further, Ok(Further { runs: 24, others: 0 }));
+        let mut changes = changes.into_inner().expect("no panic");
+        changes.sort_by(f64::total_cmp);
+        let expected = (-12..=12).filter(|place| *place != 0).map(|place| f64::from(place) * 1e-6 / 13.0);
+        // An amplitude of one is known to 1e-16.
+        assert!(
+            changes.iter().zip(expected).all(|(change, expected)| (change - expected).abs() < 3e-16),
+            "{changes:?}"
+        );
+    }
+}

@@ -58,3 +58,44 @@ fn relative_difference(scales: &[[f64; 2]], row: &Sample, other: &Sample) -> f64
     }
     largest
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::friction::Friction;
+    use crate::scene::Scene;
+
+    /// A block at rest with friction, and its run with a row every 0.1 s for 1 s.
+    fn at_rest() -> (Column, Response) {
+        let mut scene = Scene::new(Column::equal_blocks(1, 0.4, 1.6, 1.0, 9.81).expect("positive sizes"));
+        (scene.friction, scene.options.t_end) = (Some(Friction::uniform(0.5)), 1.0);
+        scene.set_rows(Some(0.1));
+        let run = crate::simulate(&scene).expect("a run");
+        assert_eq!(run.samples.len(), 11);
+        (scene.column, run)
+    }
+
+    #[test]
+    fn slides_part_at_a_share_of_the_half_width() {
+        let (column, run) = at_rest();
+        let at = |share: f64| {
+            let mut other = run.clone();
+            other.samples[4].slide[0] = share * 0.4;
+            Comparison::of(&column, &run, &other)
+        };
+        assert_eq!(at(0.02), Comparison { parts_at: Some(run.samples[3].t), difference: 0.0 });
+        assert_eq!(at(0.005), Comparison { parts_at: None, difference: 0.005 });
+    }
+
+    #[test]
+    fn a_run_that_is_longer_parts_at_the_end_of_the_other() {
+        let (column, run) = at_rest();
+        let cut = |rows: usize| {
+            let mut other = run.clone();
+            other.samples.truncate(rows);
+            Comparison::of(&column, &run, &other).parts_at
+        };
+        assert_eq!(cut(8), Some(run.samples[7].t));
+        assert_eq!(cut(10), None);
+    }
+}

@@ -440,4 +440,18 @@ mod tests {
             }
         }
     }
+
+    /// Runs of many minutes have rows far apart.
+    #[test]
+    fn coarse_rows_are_named_beside_the_horizon() {
+        let scene = Scene::new(Column::equal_blocks(1, 0.4, 1.6, 1.0, 9.81).expect("positive sizes"));
+        let (_, trust) = follow(&scene).expect("runs");
+        let sentence = |compared_every: f64| {
+            let ends_at = 60.0;
+            let (horizon, certain_at) = (2.0, 5.0);
+            Trust { determined: false, horizon, certain_at, ends_at, compared_every, ..trust.clone() }.sentence()
+        };
+        assert!(sentence(1.0).contains("t = 2.0000 s (compared every 1.00 s)"), "{}", sentence(1.0));
+        assert!(!sentence(0.05).contains("compared every"), "{}", sentence(0.05));
+    }
 }

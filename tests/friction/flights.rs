@@ -203,3 +203,17 @@ fn a_corner_that_slides_off_an_edge_slowly_flies() {
     // The time that the slide over the edge takes, 0.6 ms, depends on how low hops end; a flight begins within it.
     assert_relative_eq!(end(1e-9), end(1e-11), epsilon = 1e-4);
 }
+
+/// An upper block in flight with `v²/2g` = 0.12 m may go 0.24 m before it lands and slides 0.12 m on. Displaced so far, its centre of gravity is 0.14 m from
+/// the edge below, and a lift of 0.1 m overturns it; displaced by the slide alone, 0.38 m and 0.33 m.
+#[test]
+fn a_block_in_flight_may_overturn_where_it_lands() {
+    let mut scene = scene(vec![Block::rectangle(0.5, 0.05, 1.0); 2], vec![1.0; 2]);
+    for (speed, may_overturn) in [(1.534, true), (0.5, false)] {
+        let initial = &mut scene.initial;
+        (initial.x, initial.y) = (vec![0.0; 2], vec![0.05, 0.151]);
+        (initial.vx, initial.vy) = (vec![0.0, speed], vec![0.0; 2]);
+        scene.options.t_end = 0.005;
+        assert_eq!(run(&scene).may_overturn, may_overturn, "{speed} m/s");
+    }
+}

@@ -408,3 +408,26 @@ fn a_slide_that_goes_on_is_said() {
     let response = run(&scene);
     assert!(response.truncated && !response.slides_on && response.cuts_ground_motion());
 }
+
+/// Newmark's block stops at `A t_1/μ` = 0.3 s. Its way in the last `τ` is `½ μ g τ²`: 98 µm in 0.01 s, which are to be seen, and 1e-10 m in 1e-5 s.
+#[test]
+fn a_slide_goes_on_as_long_as_its_way_is_visible() {
+    let mut scene = scene(vec![Block::rectangle(0.5, 0.5, 1.0)], vec![0.2]);
+    scene.excitation.horizontal = Some(Motion::Rectangular { amplitude: 0.3 * GRAVITY, start: 0.0, duration: 0.2 });
+    for (t_end, slides_on) in [(0.29, true), (0.3 - 1e-5, false), (0.4, false)] {
+        scene.options.t_end = t_end;
+        assert_eq!(run(&scene).slides_on, slides_on, "{t_end}");
+    }
+}
+
+/// A block that has slid stands on a ground that falls away with 0.3 g: it presses with seven tenths of its weight.
+#[test]
+fn forces_at_rest_count_after_a_slide() {
+    let mut scene = scene(vec![Block::with_mass(0.5, 0.5, 100.0)], vec![0.2]);
+    scene.excitation.horizontal = Some(Motion::Rectangular { amplitude: 0.3 * GRAVITY, start: 0.0, duration: 0.2 });
+    scene.excitation.vertical = Some(Motion::HalfSine { amplitude: -0.3 * GRAVITY, omega: 10.0, start: 1.0 });
+    scene.options.t_end = 2.0;
+    let response = run(&scene);
+    assert!(slide(&response, 0) != 0.0);
+    assert_relative_eq!(response.min_normal_force[0], 0.7 * 100.0 * GRAVITY, max_relative = 1e-9);
+}

@@ -50,16 +50,21 @@ pub fn thin_along_x(points: &[Point]) -> Vec<Point> {
 /// Largest distance of an omitted point from the drawn curve `[px]`: a tenth of a pixel of the PNG.
 const STRAIGHT: f64 = 0.03;
 
+/// Number of points from one that is kept in any case to the next: a curve that goes up and down at each point takes a time that grows with the square of
+/// their number.
+const POINTS_AT_ONCE: usize = 100;
+
 /// A curve without the points that lie on a straight line between others (Douglas and Peucker 1973).
 pub fn straighten(run: &[Point]) -> Vec<Point> {
-    let mut kept = vec![false; run.len()];
-    kept.iter_mut().take(1).for_each(|first| *first = true);
-    let mut parts = vec![(0, run.len().saturating_sub(1))];
+    let last = run.len().saturating_sub(1);
+    let mut kept: Vec<bool> = (0..run.len()).map(|place| place % POINTS_AT_ONCE == 0 || place == last).collect();
+    let mut parts: Vec<(usize, usize)> =
+        (0..last).step_by(POINTS_AT_ONCE).map(|from| (from, last.min(from + POINTS_AT_ONCE))).collect();
     while let Some((from, to)) = parts.pop() {
-        kept.iter_mut().skip(to).take(1).for_each(|last| *last = true);
-        let off = |place: usize| distance(run[place], run[from], run[to]);
-        let farthest = (from + 1..to).max_by(|a, b| off(*a).total_cmp(&off(*b)));
-        if let Some(place) = farthest.filter(|place| off(*place) > STRAIGHT) {
+        let off = |place: usize| (place, distance(run[place], run[from], run[to]));
+        let farthest = (from + 1..to).map(off).max_by(|(_, a), (_, b)| a.total_cmp(b));
+        if let Some((place, _)) = farthest.filter(|(_, off)| *off > STRAIGHT) {
+            kept[place] = true;
             parts.extend([(from, place), (place, to)]);
         }
     }
