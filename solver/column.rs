@@ -627,4 +627,18 @@ mod tests {
         let column = Column::new(blocks, 9.81).expect("valid");
         assert_eq!(column.contact_half_width(1), 0.35);
     }
+
+    /// Of two blocks 1 m wide and 2 m high the upper one overhangs by 0.2 m. About its centre, each has 5/12 m² of inertia per mass.
+    #[test]
+    fn housners_ratio_of_a_displaced_stack_has_its_weight_above_the_middle_of_the_contact() {
+        let column = Column::new(vec![Block::rectangle(0.5, 1.0, 1.0); 2], 9.81).expect("valid");
+        let column = column.displaced(vec![0.0, 0.2]).expect("it stands");
+        // Of the upper one, the contact is 0.8 m long. The centre of both is 2 m up, 1 m and 0.1 m from those of the blocks.
+        let upper = 1.0 - 2.0 * 0.16 / (5.0 / 12.0 + 0.16 + 1.0);
+        let both = 1.0 - 2.0 * 0.25 / (5.0 / 12.0 + 1.01 + 0.25 + 4.0);
+        for (interface, expected) in [both, upper].into_iter().enumerate() {
+            let found = column.stack(interface).housner_ratio();
+            assert!((found - expected).abs() < 1e-15, "{interface}: {found} {expected}");
+        }
+    }
 }

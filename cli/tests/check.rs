@@ -85,6 +85,13 @@ fn a_check_counts_the_vertical_ground_motion() {
         "{text}"
     );
     assert!(!text.contains("at the PGA it"), "{text}");
+    // Of two blocks the base opens before the joint: 0.9 sin = 0.3 (1 + 0.1 sin), and 0.9 sin = 0.6 (1 + 0.1 sin).
+    let two = "[column]\nblocks = 2\nhalf_width = 0.3\nhalf_height = 1.0\n[excitation.horizontal]\nkind = \"half-sine\"\n\
+        amplitude_g = 0.9\nperiod = 4.0\n[excitation.vertical]\nkind = \"half-sine\"\namplitude_g = 0.1\nperiod = 4.0\n";
+    folder.write("scene.toml", two);
+    let first = (0.3f64 / 0.87).asin() * 2.0 / std::f64::consts::PI;
+    let told = format!("opens interface(s) 1, 2 of the column at rest, the first at t = {first:.4} s");
+    assert_has(&folder.succeeds("check scene.toml"), &[&told]);
 }
 
 /// A block of t = b/h = 1/4 (FRICTION: closed form 1): its coefficients to rock without sliding at 0.5, 1 and 2 g.
@@ -201,5 +208,29 @@ fn stacks_that_do_not_stand_by_themselves_are_named() {
             "check s.toml",
             &[key, "the column does not stand by itself: no acceleration of the ground opens its base"],
         );
+    }
+}
+
+/// Housner's ratios of the two stacks are 1 - 3/2 sin² α = 0.9851 and 0.9423.
+#[test]
+fn factors_of_restitution_that_would_gain_energy_are_named() {
+    let told = |factors: &str| {
+        let scene =
+            format!("[column]\nblocks = 2\nhalf_width = 0.2\nhalf_height = 2.0\n[restitution]\nfactors = {factors}\n");
+        Folder::with("scene.toml", &scene).succeeds("check scene.toml")
+    };
+    for (factors, gaining) in [("[1.3, 1.0]", "1"), ("[1.01, 1.07]", "2"), ("[1.02, 1.07]", "1, 2")] {
+        let words = format!("where interface(s) {gaining} alone are open, the stack above would gain energy");
+        assert_has(&told(factors), &[&words]);
+    }
+    assert!(!told("[1.01, 1.06]").contains("gain energy"));
+}
+
+#[test]
+fn a_column_taller_than_any_is_noted() {
+    for (half_height, is_noted) in [(29.0, false), (35.0, true)] {
+        let scene = format!("[column]\nblocks = 1\nhalf_width = 8.0\nhalf_height = {half_height}\n");
+        let told = Folder::with("scene.toml", &scene).succeeds("check scene.toml");
+        assert_eq!(told.contains("note: no column is as tall; sizes are in m"), is_noted, "{told}");
     }
 }

@@ -437,9 +437,11 @@ fn a_run_whose_column_may_be_falling_at_its_end_is_not_determined() {
     let study = "measure = \"pga_uplift\"\nlevels = [0.5, 1.2, 6.0]\ntrust = false\nfree_swing = 0\n[records]\nfiles = [\"push.csv\"]\n\
         [scene.column]\nblocks = 1\nhalf_width = 0.2\nhalf_height = 0.8\n";
     folder.write("ida.toml", study);
-    folder.succeeds("ida ida.toml --out t.csv --quiet");
+    let told = folder.succeeds("ida ida.toml --out t.csv");
     let table = folder.table("t.csv");
     assert_eq!(table.texts("outcome"), ["no-uplift", "rocks", "not-determined"], "{table:?}");
+    // Without companions, only the end of the run leaves a verdict open.
+    assert_has(&told, &["\nnot determined: the column may be falling"]);
 }
 
 /// The figures of a table are those that the study drew; a damaged table of curves is refused, not left out of account.

@@ -254,3 +254,34 @@ fn energies_of_blocks_that_slide_are_drawn() {
     // The name of the end keeps clear of the curves.
     assert!(words(&folder.read("out/slides.svg")).contains(&"at rest".into()));
 }
+
+/// The axis of energies and that of slides have numbers of their unit.
+#[test]
+fn numbers_at_an_axis_are_in_its_unit() {
+    let drawn = |name: &str, scene: &str| {
+        let folder = Folder::with("s.toml", scene);
+        folder.succeeds("run s.toml --no-trust --plots");
+        words(&folder.read(&format!("out/{name}.svg")))
+    };
+    // A thousand times the mass, a thousand times the energy.
+    let energies = ["50", "50e3", "50e6"].map(|mass| {
+        let block = format!("[[block]]\nhalf_width = 0.3\nhalf_height = 1.0\nmass = {mass}\n");
+        drawn("energy", &format!("{block}[initial]\ntheta = [0.2]\n[solver]\nt_end = 3.0\n"))
+    });
+    assert!(energies[0].contains(&"20".into()), "{:?}", energies[0]);
+    for (own, unit) in energies.iter().zip(["J", "kJ", "MJ"]) {
+        let label = format!("Energy [{unit}]");
+        assert!(own.contains(&label), "{own:?}");
+        let renamed: Vec<String> = own.iter().map(|word| word.replace(&label, "Energy [J]")).collect();
+        assert_eq!(renamed, energies[0]);
+    }
+    // Pushed by 0.5 g for a time T, a block with μ = 0.3 slides g T²/6 to the left: 4.1 mm, 10.2 cm and 1.05 m.
+    for (duration, unit, farthest) in [(0.05, "mm", "−4"), (0.25, "cm", "−10"), (0.8, "m", "−1.0")] {
+        let scene = format!(
+            "friction = 0.3\n[[block]]\nhalf_width = 1.0\nhalf_height = 0.4\n[excitation.horizontal]\nkind = \"rectangular\"\n\
+             amplitude_g = 0.5\nduration = {duration}\n[solver]\nt_end = 3.0\n"
+        );
+        let own = drawn("slides", &scene);
+        assert!(own.contains(&format!("Slide [{unit}]")) && own.contains(&farthest.into()), "{own:?}");
+    }
+}

@@ -8,6 +8,7 @@ mod in_chromium;
 
 use crate::common::{Folder, parsed, project};
 use serde_json::Value;
+use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 /// Scenes by name: a pulse on three blocks, overturning, five drums let go, nothing at all, a record, shaking both ways.
@@ -35,6 +36,16 @@ impl Run<'_> {
     fn page(&self) -> String {
         self.read("report.html")
     }
+}
+
+/// What the player of a page reads.
+fn data(page: &str) -> Value {
+    let (_, data) = page.split_once("id=\"run\">").expect("the data");
+    parsed(data.split("</script>").next().expect("closed"))
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().expect("a list").iter().map(|one| one.as_f64().expect("a number")).collect()
 }
 
 /// Runs one of [`SCENES`] with `--report`.
@@ -191,15 +202,33 @@ fn a_long_run_is_thinned_between_its_events() {
         [output]\ndt = 0.0001\n";
     let page = run_text(&folder, "long", scene).page();
     assert!(page.contains("one row in 2 of response.csv") && page.len() < 3_000_000, "{} bytes", page.len());
-    let (_, data) = page.split_once("id=\"run\">").expect("the data");
-    let data = parsed(data.split("</script>").next().expect("closed"));
-    let times: Vec<f64> = serde_json::from_value(data["t"].clone()).expect("numbers");
+    let data = data(&page);
+    let times = numbers(&data["t"]);
     assert!(times.is_sorted() && times[0] == 0.0 && times.last() == Some(&3.0));
     let events = data["events"].as_array().expect("a list");
     assert_eq!(times.len(), 15_001 + 2 * events.len());
     for event in events {
         let time = event["t"].as_f64().expect("a time");
         assert_eq!(times.iter().filter(|one| **one == time).count(), 2, "{time}");
+    }
+}
+
+/// The ground at an event is on the line between the rows around it. A block with b/h = 0.3 opens where sin 2πt = 0.6, after the row at 0.1 s.
+#[test]
+fn frames_of_an_event_have_the_ground_between_the_rows() {
+    let scene = "[[block]]\nhalf_width = 0.3\nhalf_height = 1.0\n[excitation.horizontal]\nkind = \"harmonic\"\namplitude_g = 0.5\n\
+        frequency = 1.0\n[solver]\nt_end = 2.0\n[output]\ndt = 0.1\n";
+    let data = data(&run_text(&Folder::new(), "coarse", scene).page());
+    let times = numbers(&data["t"]);
+    let opening = 0.6f64.asin() / TAU;
+    assert_eq!([times[1], times[2], times[4]], [0.1, times[3], 0.2]);
+    assert!((times[2] - opening).abs() < 1e-9, "{times:?}");
+    let share = (opening - 0.1) / 0.1;
+    for key in ["ax", "dx"] {
+        let own = numbers(&data[key]);
+        let between = own[1] + share * (own[4] - own[1]);
+        // Five digits behind the point, of three numbers.
+        assert!((own[2] - between).abs() < 1e-5 && own[3] == own[2], "{key}: {between} {own:?}");
     }
 }
 
@@ -312,4 +341,12 @@ fn a_page_over_an_input_is_refused() {
         assert_eq!(folder.read(name), before);
     }
     folder.succeeds("report out --out page.html");
+}
+
+/// Housner (1963): 1 - 3/2 sin² α = 0.876 of a block with b/h = 0.3.
+#[test]
+fn the_inputs_say_how_much_of_its_rate_a_plastic_column_keeps() {
+    let scene = "[[block]]\nhalf_width = 0.3\nhalf_height = 1.0\n[solver]\nt_end = 1.0\n";
+    let page = run_text(&Folder::new(), "plastic", scene).page();
+    assert!(page.contains("as one body the column keeps 88 % of its rate"));
 }

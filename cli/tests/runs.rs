@@ -146,13 +146,31 @@ fn a_run_of_many_modes_tells_those_that_last_and_sums_up_the_others() {
 /// Rows every 0.1 s miss the crest of a pulse: what a report calls the peak is the motion's own.
 #[test]
 fn the_peak_of_the_ground_is_that_of_the_motion_not_of_the_rows() {
-    let folder = Folder::new();
     let scene = "[column]\nblocks = 1\nhalf_width = 0.3\nhalf_height = 1.0\n[excitation.horizontal]\nkind = \"sine-pulse\"\n\
         amplitude_g = 0.5\nperiod = 0.3\n[solver]\nt_end = 1.0\n[output]\ndt = 0.1\n";
-    folder.write("scene.toml", scene);
-    folder.succeeds("run scene.toml --report");
-    let summary = folder.summary();
-    let peak = summary["peak_ground_acceleration"][0].as_f64().expect("a number");
-    assert!((peak - 0.5 * 9.81).abs() < 1e-12, "{peak}");
+    let folder = Folder::with("scene.toml", scene);
+    let peak = || {
+        folder.succeeds("run scene.toml --report");
+        folder.summary()["peak_ground_acceleration"][0].as_f64().expect("a number")
+    };
+    let found = peak();
+    assert!((found - 0.5 * 9.81).abs() < 1e-12, "{found}");
     assert!(folder.page().contains("<span class=\"value\">0.5 g</span>"));
+    // A pulse that begins after the end of the run is no part of it.
+    folder.write("scene.toml", scene.replace("period = 0.3", "period = 0.3\nstart = 2.0"));
+    assert_eq!(peak(), 0.0);
+}
+
+/// `p = √(3g / 4R)` of a homogeneous rectangle 0.6 m wide: 2 m high above the base, 1 m above the joint.
+#[test]
+fn a_summary_has_slenderness_and_frequency_parameter_of_the_stack_above_each_interface() {
+    let scene = "[column]\nblocks = 2\nhalf_width = 0.3\nhalf_height = 1.0\n[solver]\nt_end = 1.0\n";
+    let folder = Folder::with("scene.toml", scene);
+    folder.succeeds("run scene.toml --no-trust");
+    let summary = folder.summary();
+    for (interface, half_height) in [1.0f64, 0.5].into_iter().enumerate() {
+        let [alpha, p] = ["alpha", "p"].map(|key| summary[key][interface].as_f64().expect("a number"));
+        let expected = (0.75 * 9.81 / half_height.hypot(0.3)).sqrt();
+        assert!((alpha - (0.3 / half_height).atan()).abs() < 1e-14 && (p - expected).abs() < 1e-14, "{alpha} {p}");
+    }
 }

@@ -185,3 +185,18 @@ fn rare_probabilities_are_printed_with_their_digits() {
         assert!((printed / exact - 1.0).abs() <= 5e-4, "{line}");
     }
 }
+
+/// All samples overturn. The table that is merged says of one that its companions do not agree.
+#[test]
+fn a_sample_whose_verdict_is_not_determined_is_left_out() {
+    let folder = folder("ask = \"trust\"\n[sampling]\nsamples = 4\n[axes]\namplitude = { uniform = [3.0, 4.0] }\n");
+    folder.succeeds("sweep sweep.toml --out table.csv");
+    let counts = |name: &str| {
+        let table = folder.table(name);
+        ["runs", "lost", "undecided"].map(|column| table.row(0).number(column))
+    };
+    assert_eq!(counts("table-probability.csv"), [4.0, 4.0, 0.0]);
+    folder.write("table.csv", folder.read("table.csv").replacen(",determined,", ",not-determined,", 1));
+    folder.succeeds("merge merged.csv table.csv --sweep sweep.toml");
+    assert_eq!(counts("merged-probability.csv"), [3.0, 3.0, 1.0]);
+}

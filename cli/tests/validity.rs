@@ -128,3 +128,43 @@ fn the_report_says_what_impacts_ask_for() {
     let of_run = summary["impulse_friction_demand"][0].as_f64().expect("a number");
     assert!(folder.read("o/report.html").contains(&format!("<td>{of_run:.3}</td>")), "{of_run}");
 }
+
+/// The page of a run without companions.
+fn page_of(scene: &str) -> String {
+    let folder = Folder::with("s.toml", scene);
+    folder.succeeds("run s.toml --no-trust --report");
+    folder.page()
+}
+
+#[test]
+fn at_rest_each_contact_carries_all_of_the_weight_above_it() {
+    let page = page_of("[column]\nblocks = 2\nhalf_width = 0.4\nhalf_height = 1.6\n[solver]\nt_end = 1.0\n");
+    assert_eq!(page.matches(" (100 % of the weight) <span").count(), 2);
+}
+
+/// The ground falls at 1.5 g for 0.3 s of 0.5 s.
+#[test]
+fn the_report_says_for_which_share_of_the_time_a_contact_would_pull() {
+    let page = page_of(
+        "[[block]]\nhalf_width = 0.3\nhalf_height = 1.0\n[excitation.vertical]\nkind = \"rectangular\"\namplitude_g = -1.5\n\
+         duration = 0.3\n[solver]\nt_end = 0.5\n",
+    );
+    let row = page.lines().skip_while(|line| !line.contains("N &lt; 0")).find(|line| line.contains("scope=\"row\""));
+    assert!(row.is_some_and(|row| row.ends_with("<td>0.3 <span class=\"note\">60 %</span></td></tr>")), "{row:?}");
+}
+
+/// A block leans on a flat one that falls back and stops: it turns on faster, and its centre falls at 0.48 m/s instead of 0.46 m/s.
+#[test]
+fn the_report_says_that_an_impact_would_have_to_pull() {
+    let folder = Folder::with(
+        "s.toml",
+        "[[block]]\nhalf_width = 0.6\nhalf_height = 0.3\n[[block]]\nhalf_width = 0.3\nhalf_height = 0.3\n\
+         [initial]\ntheta = [0.1, 0.1]\n[solver]\nt_end = 2.0\n",
+    );
+    folder.succeeds("run s.toml --no-trust --report");
+    let upper = &folder.summary()["validity"]["contacts"][1];
+    assert_eq!(upper["impulse_friction_demand"]["value"], "infinite");
+    assert!(upper["min_normal_force"]["value"].as_f64().is_some_and(|force| force > 0.0), "{upper}");
+    let told = "; at an impact interface 2 would have to pull: blocks may part there for an instant. The scene names no coefficient.";
+    assert_eq!(folder.page().matches(told).count(), 2, "at the top and in the section");
+}

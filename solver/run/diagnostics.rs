@@ -86,6 +86,8 @@ impl Sample {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::column::{Block, Shape};
+    use crate::response::BlockState;
     use rocking_codegen::pattern::Pattern;
 
     fn sample(theta: [f64; 2], omega: [f64; 2], signs: [i8; 2]) -> Sample {
@@ -118,6 +120,21 @@ mod tests {
         let [x, y] = upright.top_displacement(&column);
         assert!((x - (corner[0] + 0.4)).abs() < 1e-15 && (y - (corner[1] + 1.6 - 3.2)).abs() < 1e-15, "{x} {y}");
         assert_eq!(sample([0.0; 2], [0.0; 2], [0, 0]).top_displacement(&column), [0.0, 0.0]);
+    }
+
+    /// A block that tapers from 1.6 m to 0.8 m over a height of 0.8 m has its centroid at 0.8/3 · (1.6 + 2 · 0.8) / (1.6 + 0.8) = 16/45 m.
+    #[test]
+    fn the_top_of_a_block_that_slides_or_flies_is_above_its_centroid() {
+        let frustum = Block::of_shape(Shape::Prism, [0.8, 0.4], 0.4, 1.0);
+        let column = Column::new(vec![frustum], 9.81).expect("valid");
+        for (place, lean) in [([0.1, 16.0 / 45.0], 0.0f64), ([0.3, 0.5], 0.1)] {
+            let mut free = Sample::new(0.0, vec![lean], vec![0.0], Pattern::from_signs(&[0]));
+            free.blocks = vec![BlockState { place, velocity: [0.0; 2], force: ContactForce::default() }];
+            let [x, y] = free.top_displacement(&column);
+            let rise = 4.0 / 9.0;
+            let expected = [place[0] + rise * lean.sin(), place[1] + rise * lean.cos() - 0.8];
+            assert!((x - expected[0]).abs() < 1e-15 && (y - expected[1]).abs() < 1e-15, "{x} {y}");
+        }
     }
 
     fn column() -> Column {

@@ -451,7 +451,7 @@ mod tests {
             let (horizon, certain_at) = (2.0, 5.0);
             Trust { determined: false, horizon, certain_at, ends_at, compared_every, ..trust.clone() }.sentence()
         };
-        assert!(sentence(1.0).contains("t = 2.0000 s (compared every 1.00 s)"), "{}", sentence(1.0));
+        assert!(sentence(1.0).contains("t = 2.0000 s only (compared every 1.00 s)"), "{}", sentence(1.0));
         assert!(!sentence(0.05).contains("compared every"), "{}", sentence(0.05));
     }
 }

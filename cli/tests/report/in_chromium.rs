@@ -1,7 +1,7 @@
 //! Claims about the page as a browser shows it: angles, places, events, playing. They are ignored where there is no Chromium.
 
 use super::browser::Browser;
-use super::{HOSTILE, Run, SCENES, hostile, run, run_text};
+use super::{HOSTILE, Run, SCENES, hostile, numbers, run, run_text};
 use crate::common::{Folder, Row, Table, project_text};
 use rocking::kinematics::outlines;
 use rocking::pattern::Pattern;
@@ -20,10 +20,6 @@ fn column(run: &Run) -> Column {
     let summary = run.json("summary.json");
     let blocks: Vec<Block> = serde_json::from_value(summary["column"]["blocks"].clone()).expect("blocks");
     Column::new(blocks, summary["column"]["gravity"].as_f64().expect("a number")).expect("valid")
-}
-
-fn numbers(value: &Value) -> Vec<f64> {
-    value.as_array().expect("a list").iter().map(|one| one.as_f64().expect("a number")).collect()
 }
 
 /// Written with ten digits behind the point: off by 5e-11 rad at most.
