@@ -175,13 +175,32 @@ mod tests {
                 let intensity = Intensity::named(name, Some(sa)).expect("a name");
                 assert_eq!(intensity.name(), name);
                 assert_eq!(intensity.to_string().parse(), Ok(intensity), "{intensity}");
-                assert!(!intensity.label().is_empty());
             }
         }
         for text in ["", "pg", "sa", "sa()", "sa(x)", "sa(1", "pga(1)", "sa(-1)", "sa(nan)", "sa(1 1)", "sa(1 0.05 7)"]
         {
             assert_eq!(text.parse::<Intensity>(), Err(UnknownIntensity(text.into())), "{text}");
         }
+    }
+
+    #[test]
+    fn labels_are_quantities_with_their_units() {
+        let labels = NAMES.map(|name| Intensity::named(name, Some([0.5, 0.05])).expect("a name").label());
+        assert_eq!(
+            labels,
+            [
+                "PGA [m/s²]",
+                "PGA [g]",
+                "PGA / (g tan α)",
+                "PGV [m/s]",
+                "p PGV / (g tan α)",
+                "PGD [m]",
+                "Arias intensity [m/s]",
+                "CAV [m/s]",
+                "Sa(0.5 s, 5 %) [m/s²]",
+                "Sa(0.5 s, 5 %) [g]",
+            ]
+        );
     }
 
     #[test]

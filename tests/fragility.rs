@@ -6,7 +6,7 @@ mod random;
 use random::Random;
 use rocking::Fate;
 use rocking::studies::probit::{Maximum, Probit, Trial, fit};
-use rocking::studies::{Fit, Fragility, FragilityOptions, LimitState, Observation};
+use rocking::studies::{Fit, Fragility, FragilityOptions, LimitState, Observation, fractile};
 use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -190,6 +190,14 @@ fn what_is_not_monotonic_is_said() {
     assert_eq!(found.undecided(), 1);
     let told = found.statements().join("\n");
     assert!(told.contains("not monotonic") && told.contains("(r0)") && told.contains("1 undecided run(s)"), "{told}");
+}
+
+/// In binary, 0.07 times 100 is above 7.
+#[test]
+fn a_fractile_counts_no_value_more_for_rounding() {
+    let values: Vec<f64> = (1..=100).map(f64::from).collect();
+    assert!(0.07 * values.len() as f64 > 7.0);
+    assert_eq!([0.07, 0.071].map(|share| fractile(&values, share)), [7.0, 8.0]);
 }
 
 /// A number of the normal distribution: the sum of twelve uniform numbers less six.

@@ -171,6 +171,14 @@ fn steps_of_fixed_length_are_shorter_than_a_fall() {
     assert_eq!(scene.check(), Ok(()));
 }
 
+/// `p = √(3g / 4R)` is 0.7713 rad/s with R = √(3² + 12²) m: 25.93 s after the pulse, rounded up.
+#[test]
+fn a_tall_column_swings_for_twenty_over_p() {
+    let mut scene = Scene::new(Column::equal_blocks(1, 3.0, 12.0, 1.0, GRAVITY).expect("valid"));
+    scene.excitation.horizontal = Some(Motion::Rectangular { amplitude: 2.0, start: 0.0, duration: 1.0 });
+    assert_eq!(scene.end_of_free_swing(), Some(27.0));
+}
+
 /// Lists of coefficients of another length are a fault of the scene, not of the caller: they panicked.
 #[test]
 fn slips_of_a_scene_that_is_not_valid_are_none() {

@@ -55,6 +55,30 @@ fn every_kind_shakes_as_its_samples_do() {
     assert_eq!(moved, scenes().len(), "a motion that moves nothing proves nothing");
 }
 
+/// The acceleration of a velocity pulse has the amplitude `velocity · omega`; `g tan α` is 0.75 g.
+#[test]
+fn an_amplitude_of_a_velocity_pulse_is_one_of_its_acceleration() {
+    for (key, velocity) in [
+        ("velocity = 2.0", 2.0),
+        ("amplitude = 2.0", 2.0 / 8.0),
+        ("amplitude_g = 2.0", 2.0 * 9.81 / 8.0),
+        ("amplitude_uplift = 2.0", 2.0 * 0.75 * 9.81 / 8.0),
+    ] {
+        for kind in ["gabor", "mavroeidis-papageorgiou"] {
+            let text = format!(
+                "[[block]]\nhalf_width = 0.3\nhalf_height = 0.4\n\
+                 [excitation.horizontal]\nkind = \"{kind}\"\nomega = 8.0\ngamma = 2.0\n{key}\n"
+            );
+            let scene = Scene::from_toml(&text, Path::new("pulse.toml")).expect("a scene");
+            let found = match scene.excitation.horizontal {
+                Some(Motion::Gabor { velocity, .. } | Motion::MavroeidisPapageorgiou { velocity, .. }) => velocity,
+                other => panic!("{other:?}"),
+            };
+            assert!((found / velocity - 1.0).abs() < 1e-14, "{kind}, {key}: {found}");
+        }
+    }
+}
+
 /// Horizontal and vertical are summed, scaled and mirrored alike.
 #[test]
 fn a_sum_of_halves_is_the_whole() {

@@ -137,6 +137,17 @@ fn times_that_are_no_rows_are_refused() {
     assert!(refused(Some(0.1), vec![0.0]).contains("output.dt"));
 }
 
+/// 400,001 rows of one block: with friction a block takes three times as much memory, and 5e6/13 rows are allowed instead of 5e6/11.
+#[test]
+fn rows_with_friction_take_more_memory() {
+    let mut scene = Scene::new(Column::equal_blocks(1, 0.4, 1.6, 1.0, 9.81).expect("valid"));
+    (scene.options.t_end, scene.output_dt) = (40.0, Some(1e-4));
+    assert_eq!(scene.check(), Ok(()));
+    scene.friction = Some(Friction::uniform(0.5));
+    let faults = scene.check().expect_err("refused").faults().to_vec();
+    assert_eq!((faults.len(), faults[0].key.as_str()), (1, "output.dt"), "{faults:?}");
+}
+
 /// `3 · 0.1` is above 0.3, as the last row of an interval may be.
 #[test]
 fn a_last_time_beyond_the_end_by_rounding_is_taken() {

@@ -77,3 +77,34 @@ fn rows_are_those_of_points_run_alone() {
         assert!(rows.iter().any(|row| row.result.is_ok()), "{axes:?}");
     }
 }
+
+#[test]
+fn points_that_are_spread_over_a_sweep_hold_its_first_and_last() {
+    let values: Vec<f64> = (0..2000).map(f64::from).collect();
+    let sweep = sweep(Combine::Cartesian, &[("solver.t_end", &values)]);
+    for (most, points) in [(1, &[0][..]), (2, &[0, 1999]), (3, &[0, 999, 1999])] {
+        assert_eq!(sweep.evenly_spread(most).collect::<Vec<_>>(), points, "{most}");
+    }
+    assert!(sweep.evenly_spread(3000).eq(0..2000));
+}
+
+/// Half of what opens the base moves nothing: each contact carries the weight above it.
+#[test]
+fn the_smallest_normal_force_is_a_share_of_the_weight_above_its_own_interface() {
+    let axes: [(&str, &[f64]); 2] = [("column.blocks", &[2.0]), ("excitation.horizontal.amplitude_uplift", &[0.5])];
+    let sweep = Sweep { ask: Ask::Validity, ..sweep(Combine::Cartesian, &axes) };
+    let needs = sweep.row(0).result.expect("a run").needs.expect("asked for");
+    assert!((needs.min_normal - 1.0).abs() < 1e-12, "{needs:?}");
+}
+
+#[test]
+fn a_verdict_that_is_not_determined_has_no_demand() {
+    let sweep = sweep(Combine::Cartesian, &[("excitation.horizontal.amplitude_uplift", &[2.0])]);
+    let mut outcome = sweep.row(0).result.expect("a run");
+    for (determined, demand) in
+        [(None, Some(outcome.peaks[0])), (Some(true), Some(outcome.peaks[0])), (Some(false), None)]
+    {
+        outcome.determined = determined;
+        assert_eq!(outcome.demand(), demand, "{determined:?}");
+    }
+}

@@ -61,6 +61,16 @@ fn a_column_cut_into_drums_is_the_whole() {
     assert_relative_eq!(whole.inertia, cut.inertia, max_relative = 1e-14);
 }
 
+/// Half-widths of 0.6, 0.5 and 0.4 m: the faces of both parts are as 1.1 to 0.9.
+#[test]
+fn parts_of_a_tapered_body_share_its_mass_by_their_size() {
+    let text = "[column]\nblocks = 2\nhalf_width = 0.6\ntop_half_width = 0.4\nhalf_height = 1.0\nmass = 10.0\n";
+    let column = Scene::from_toml(text, "tapered.toml".as_ref()).expect("valid").column;
+    for (block, mass) in column.blocks().iter().zip([5.5, 4.5]) {
+        assert_relative_eq!(block.mass, mass, max_relative = 1e-14);
+    }
+}
+
 #[test]
 fn a_displaced_drum_opens_on_the_side_to_which_it_overhangs_first() {
     // A cube that overhangs the right end of a wide one by half its half-width: the contact is 1.5 m long.

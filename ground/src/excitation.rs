@@ -206,7 +206,15 @@ mod tests {
         assert_eq!(segments.len(), 3);
     }
 
-    /// A pulse of 1 s that begins before the run, one that is over before it, a harmonic without end, and a record whose first samples are zero.
+    #[test]
+    fn a_run_that_ends_with_the_motion_leaves_nothing_out() {
+        let record = Record::new(vec![0.0, 1.0, 0.0, 0.0], 0.5, 0.25).expect("valid");
+        let excitation = Excitation { horizontal: None, vertical: Some(Motion::Record(record)) };
+        assert!(excitation.moves_after(1.2) && !excitation.moves_after(1.25));
+    }
+
+    /// A pulse of 1 s that begins before the run, one that is over before it, a harmonic without end, a record whose first samples are zero, and
+    /// one of zeros.
     #[test]
     fn what_lies_before_the_run_is_said() {
         let says = |motion: Motion| Excitation { horizontal: Some(motion), vertical: None }.warnings().join(" ");
@@ -218,6 +226,7 @@ mod tests {
         let record =
             |start: f64| says(Motion::Record(Record::new(vec![0.0, 0.0, 1.0, 0.0], 1.0, start).expect("valid")));
         assert!(record(-1.0).is_empty() && record(-1.5).contains("begins at t = -0.5000 s"));
+        assert_eq!(says(Motion::Record(Record::new(vec![0.0; 4], 1.0, -1.0).expect("valid"))), "");
     }
 
     #[test]
@@ -238,5 +247,9 @@ mod tests {
         assert_eq!(says(at("E.asc", 10.0), at("Z.asc", 12.5).starting_at(2.5)), "");
         let trimmed = at("E.asc", 10.0).trimmed(0.01, 0.02).expect("two samples");
         assert_eq!(says(trimmed, at("Z.asc", 10.01)), "");
+        // Within an interval of the coarser one, and of another earthquake.
+        let finer = Record::new(vec![0.0, 1.0, 0.0], 0.005, 0.0).expect("valid").with_first_sample(Some(10.007));
+        assert_eq!(says(at("E.asc", 10.0), finer), "");
+        assert_eq!(says(at("E.asc", 10.0), at("Z.asc", 3610.0)), "");
     }
 }

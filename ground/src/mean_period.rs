@@ -101,6 +101,16 @@ mod tests {
         }
     }
 
+    /// Half a second of 5 Hz: 50 samples at 0.01 s, and 2000 intervals are 1/0.05 s.
+    #[test]
+    fn a_short_record_has_the_mean_period_of_its_padded_self() {
+        let short: Vec<f64> = (0..50).map(|k| (TAU * 5.0 * f64::from(k) * 0.01).sin()).collect();
+        let mut padded = short.clone();
+        padded.resize(2048, 0.0);
+        let [short, padded] = [short, padded].map(|accel| Record::new(accel, 0.01, 0.0).expect("valid").mean_period());
+        assert!(short.is_some() && short == padded, "{short:?} and {padded:?}");
+    }
+
     #[test]
     fn records_outside_the_band_have_no_mean_period() {
         for dt in [1e-100, 1e-12, 10.0, 1e6] {

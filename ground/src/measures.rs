@@ -171,6 +171,12 @@ mod tests {
     }
 
     #[test]
+    fn of_equal_peaks_the_first_gives_the_time() {
+        let record = Record::new(vec![0.0, 1.0, 0.0, -1.0, 0.0], 0.5, 0.0).expect("valid");
+        assert_eq!(record.measures(9.81).pga_time, 0.5);
+    }
+
+    #[test]
     fn a_silent_record_measures_nothing() {
         let measures = Record::new(vec![0.0; 3], 0.1, 2.0).expect("valid").measures(9.81);
         assert_eq!((measures.pga, measures.pgv, measures.pgd, measures.arias), (0.0, 0.0, 0.0, 0.0));

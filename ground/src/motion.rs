@@ -424,6 +424,26 @@ pub(crate) mod tests {
     }
 
     #[test]
+    fn a_factor_scales_motions_of_every_kind() {
+        let sum = Motion::Sum { terms: kinds() };
+        for motion in kinds().into_iter().chain([sum]) {
+            let scaled = motion.clone().scaled(1.5).expect("no record");
+            for t in [0.8, 1.1, 1.9, 2.6] {
+                assert!((scaled.value(t) - 1.5 * motion.value(t)).abs() < 1e-13, "{motion:?} at {t}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_pulse_of_mavroeidis_and_papageorgiou_has_more_than_one_oscillation() {
+        let invalid = |gamma: f64| {
+            Motion::MavroeidisPapageorgiou { velocity: 0.5, omega: 4.0, start: 0.0, phase: 0.0, gamma }.invalid(1e6)
+        };
+        assert_eq!(invalid(0.9), Some(("gamma".into(), 0.9)));
+        assert_eq!(invalid(1.1), None);
+    }
+
+    #[test]
     fn a_sum_is_the_sum_of_its_terms_and_breaks_where_they_break() {
         let record = Record::new(vec![0.0, 1.0, -1.0, 0.0], 0.5, 0.25).expect("valid");
         let terms = vec![

@@ -199,14 +199,30 @@ fn a_count_above_the_samples_is_no_sample() {
 
 #[test]
 fn what_is_hardly_an_acceleration_has_a_warning() {
-    let gap = |k: usize, a: f64| seconds(k, if k == 7 { -999.0 } else { a });
-    let gal = read(&table("time (s),a (cm/s2)", gap), &options());
-    assert!(
-        gal.warnings.len() == 1 && gal.warnings[0].starts_with("sample 8, at 0.070000 s, is -999, which often"),
-        "{gal:?}"
-    );
+    for missing in [-999.0, -9999.0, -99999.0] {
+        let gap = |k: usize, a: f64| seconds(k, if k == 7 { missing } else { a });
+        let file = read(&table("time (s),a (mm/s2)", gap), &options());
+        let warning = format!("sample 8, at 0.070000 s, is {missing}, which often");
+        assert!(file.warnings.len() == 1 && file.warnings[0].starts_with(&warning), "{file:?}");
+    }
     let large = read(&table("time (s),a (g)", |k, a| seconds(k, 100.0 * a)), &options());
     assert!(large.warnings[0].contains("g is hardly one; are the samples in another unit than g?"), "{large:?}");
+}
+
+/// 120 samples with a peak of 1 m/s²; of fewer than 100 the last one is not looked at.
+#[test]
+fn a_record_that_ends_while_the_ground_shakes_has_a_warning() {
+    let ending = |count: usize, last: f64| {
+        let value = |k: usize| if k == 5 { 1.0 } else { f64::from(u8::from(k + 1 == count)) * last };
+        let rows: String = (0..count).map(|k| seconds(k, value(k)) + "\n").collect();
+        read(&format!("time (s),a (m/s2)\n{rows}"), &options()).warnings
+    };
+    for last in [0.5, -0.5] {
+        let warnings = ending(120, last);
+        assert!(warnings.len() == 1 && warnings[0].starts_with("the last sample is 50 % of the peak"), "{warnings:?}");
+    }
+    assert_eq!(ending(120, -0.09), [""; 0]);
+    assert_eq!(ending(90, -0.5), [""; 0]);
 }
 
 #[test]
@@ -313,7 +329,7 @@ const CONTRADICTIONS: [(&str, &str, &str, &str); 4] = [
         "       2       1       2",
         "line 14: the integer header gives the unit g",
     ),
-    ("csmip/one-channel.v2", "in cm/sec2.", "in mm/sec2.", "states a peak of 2.39336"),
+    ("csmip/one-channel.v2", "in cm/sec2.", "in mm/sec2.", "line 15 states a peak of 2.39336"),
     (
         "csmip/one-channel.v2",
         "spaced at  .010 sec",

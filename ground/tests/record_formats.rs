@@ -319,7 +319,7 @@ fn a_unit_whose_place_is_counted_from_one_is_found_by_the_line_before_the_sample
 #[test]
 fn the_unit_of_a_cosmos_file_is_that_of_its_integer_header() {
     let cm = read("cosmos/cm.V2", &options());
-    for (code, size) in [(2, 9.81), (4, 0.01), (7, 0.0254), (10, 0.01), (11, 9.81e-3)] {
+    for (code, size) in [(2, 9.81), (4, 0.01), (7, 0.0254), (10, 0.01), (11, 9.81e-3), (12, 9.81e-6)] {
         let text = text("cosmos/cm.V2").replace("       2       1       4", &format!("       2       1{code:8}"));
         // A unit that contradicts the line before the samples is an error.
         let strict = RecordFile::read(text.as_bytes(), &options());
@@ -529,6 +529,17 @@ fn the_peak_of_a_header_is_checked() {
     assert!(matches!(error, RecordError::Peak { line: 39, stated, .. } if (stated - 0.239).abs() < 1e-12), "{error}");
     let file = RecordFile::read(text.as_bytes(), &TextOptions { lenient: true, ..options() }).expect("lenient");
     assert!(file.warnings[0].contains("line 39"), "{:?}", file.warnings);
+}
+
+/// -0.01 stands for magnitudes up to 0.015. Beyond, the peak may differ by a hundredth: 0.0152 exceeds 0.015 by 1.3 % of itself.
+#[test]
+fn a_stated_peak_is_as_exact_as_it_is_printed() {
+    let file = |peak: &str| {
+        let header = "SAMPLING_INTERVAL_S: 0.01\nNDATA: 3\nUNITS: cm/s^2\nPGA_CM/S^2: -0.01";
+        RecordFile::read(format!("{header}\n0.0\n{peak}\n0.0\n").as_bytes(), &options())
+    };
+    assert_eq!(file("-0.0148").expect("rounded").warnings, [""; 0]);
+    assert!(matches!(file("-0.0152"), Err(RecordError::Peak { line: 4, .. })));
 }
 
 #[test]

@@ -337,12 +337,27 @@ mod tests {
             let probability = found.probability(*level).expect("a curve");
             assert!(*low <= probability + 0.05 && probability <= high + 0.05, "{level}: {low} {probability} {high}");
         }
+        assert!(found.statements().iter().any(|told| told.starts_with("12 records are few: bands of fewer than 20")));
         assert_eq!(found, overturning(&runs));
         let other = Fragility::of(&runs, LimitState::Overturned, &FragilityOptions { seed: 1, ..Default::default() });
         assert!(other.fit == found.fit && other.bands != found.bands);
         let mut shuffled = runs.clone();
         shuffled.reverse();
         assert_eq!(found, overturning(&shuffled));
+    }
+
+    /// One of two records overturns from 0.4 on, the other from 0.8 on. Two draws with replacement hold both in half of the cases, and only these
+    /// have levels at which some runs overturn: 500 of 1000, with a standard deviation of 16.
+    #[test]
+    fn bands_need_curves_of_most_resampled_sets() {
+        let own = |record: usize, from: f64| [0.2, 0.4, 0.6, 0.8].map(|level| run(record, level, level >= from));
+        let found = overturning(&[own(0, 0.4), own(1, 0.8)].concat());
+        let bands = found.bands.clone().expect("of a curve");
+        assert_eq!((bands.replicates, bands.median, bands.dispersion), (1000, None, None));
+        assert!((440..560).contains(&bands.fitted) && bands.levels.is_empty(), "{}", bands.fitted);
+        let told =
+            format!("no bands: only {} of 1000 resampled sets have a curve; 2 records are too few", bands.fitted);
+        assert!(found.statements().contains(&told), "{:?}", found.statements());
     }
 
     /// Two columns under the same records: one falls from 0.5 on, the other from 1.5 on. Neither comes back.

@@ -61,7 +61,8 @@ fn peak(start: f64, end: f64, [first, last]: [f64; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Scene, simulate};
+    use crate::pattern::Pattern;
+    use crate::{Friction, Motion, Sample, Scene, simulate};
 
     #[test]
     fn the_peak_of_a_cubic_lies_between_its_ends() {
@@ -84,6 +85,32 @@ mod tests {
         let response = simulate(&Scene { output_dt: Some(0.01), ..scene.clone() }).expect("runs");
         let exact = 0.8 * response.peak_theta[0].sin();
         assert!((largest_gap(&scene.column, &response) / exact - 1.0).abs() < 1e-8, "{}", response.peak_theta[0]);
+    }
+
+    /// The ground is pulled down at 15 m/s² for 0.1 s, so that the block falls behind by 15 - g; then it loses that velocity at g. It flies without
+    /// turning.
+    #[test]
+    fn the_gap_of_a_flight_is_its_height() {
+        let mut scene = Scene::new(Column::equal_blocks(1, 0.4, 1.6, 1.0, 9.81).expect("valid"));
+        scene.friction = Some(Friction::uniform(0.5));
+        scene.excitation.vertical = Some(Motion::Rectangular { amplitude: -15.0, start: 0.0, duration: 0.1 });
+        (scene.options.t_end, scene.output_dt) = (0.5, Some(0.01));
+        let response = simulate(&scene).expect("runs");
+        let height = 0.5 * (15.0 - 9.81) * 0.1 * 0.1 * (1.0 + (15.0 - 9.81) / 9.81);
+        assert!((largest_gap(&scene.column, &response) / height - 1.0).abs() < 1e-9, "{height}");
+    }
+
+    /// An impact turns the rate from -1 to 1 rad/s, and 0.1 s later the angle is zero again at -1 rad/s: the cubic is `0.1 s (1 - s)`.
+    #[test]
+    fn the_motion_after_an_impact_begins_with_the_rate_after_it() {
+        let mut scene = Scene::new(Column::equal_blocks(1, 0.4, 1.6, 1.0, 9.81).expect("valid"));
+        (scene.initial.theta, scene.options.t_end) = (vec![0.1], 2.0);
+        let mut response = simulate(&scene).expect("runs");
+        response.events.truncate(1);
+        let impact = response.events.first_mut().expect("an impact");
+        (impact.t, impact.theta[0], impact.omega_before[0], impact.omega_after[0]) = (1.0, 0.0, -1.0, 1.0);
+        response.samples = vec![Sample::new(1.1, vec![0.0], vec![-1.0], Pattern::from_signs(&[1]))];
+        assert!((largest_gap(&scene.column, &response) - 0.8 * 0.025_f64.sin()).abs() < 1e-15);
     }
 
     /// One block and three under a record, so that stretches of all kinds occur and interfaces open above open ones.

@@ -441,3 +441,43 @@ fn first_uplift(response: &Response) -> Option<f64> {
         response.events.iter().find(|event| opens(event.kind, &event.after)).map(|event| event.t)
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Column, simulate};
+
+    fn scene() -> Scene {
+        Scene::new(Column::equal_blocks(1, 0.4, 1.6, 1.0, 9.81).expect("valid"))
+    }
+
+    #[test]
+    fn a_run_goes_on_after_the_longer_component() {
+        let lasting = |intervals: usize| Record::new(vec![1.0; intervals + 1], 0.1, 0.0).expect("valid");
+        let t_end = |horizontal: usize, vertical: usize| {
+            let vertical = Some(lasting(vertical));
+            let record = StudyRecord { name: "a".into(), horizontal: lasting(horizontal), vertical };
+            let pga = Intensity::named("pga", None).expect("a measure");
+            let study = Ida::new(scene(), vec![record], pga, vec![1.0]).and_then(|study| study.with_free_swing(1.0));
+            study.expect("a study").scene_of(0).expect("in range").options.t_end
+        };
+        for (horizontal, vertical, end) in [(5, 19, 2.9), (19, 5, 2.9)] {
+            assert!((t_end(horizontal, vertical) - end).abs() < 1e-12, "{horizontal} and {vertical}");
+        }
+    }
+
+    /// A block that is pushed rises at first: its largest angle up to the horizon is that of the last row there, and its peak and impact come later.
+    #[test]
+    fn what_comes_after_the_horizon_is_left_out() {
+        let mut scene = scene();
+        scene.initial.omega = vec![0.2];
+        (scene.options.t_end, scene.output_dt) = (2.0, Some(0.01));
+        let response = simulate(&scene).expect("runs");
+        let last = response.samples[5].theta[0];
+        assert!(last < 0.5 * response.peak_theta[0] && response.impacts > 0);
+        let found = open(&scene, response, 0.055);
+        assert_eq!((found.fate, found.impacts, found.horizon), (Fate::NotDetermined, 0, Some(0.055)));
+        assert_eq!(found.peaks, [last / scene.column.stack(0).slenderness()]);
+        assert!((found.largest_gap - 0.8 * last.sin()).abs() < 1e-15);
+    }
+}

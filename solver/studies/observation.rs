@@ -299,6 +299,10 @@ mod tests {
             ["peak > 0.3", "peak > 0.5", "overturned"].map(|state| reached(state, &undecided)),
             [Some(true), None, None]
         );
+        // What slides on may slide back.
+        let sliding = |fate: Fate| Observation { residual_slides: vec![-0.1], ..run(Some(fate), 0.4) };
+        let slides = [Fate::Undetermined, Fate::Rocks].map(|fate| reached("slide > 0.05", &sliding(fate)));
+        assert_eq!(slides, [None, Some(true)]);
         assert_eq!(reached("uplift", &run(None, 0.0)), None);
         assert_eq!([lost.demand(), standing.demand(), undecided.demand()], [Some(f64::INFINITY), Some(0.4), None]);
     }

@@ -136,6 +136,9 @@ mod tests {
         assert!((number(normal.quantile(0.5)) - 0.674_490).abs() < 1e-5);
         let narrow = Distribution::normal(0.0, 1.0, [0.9, 1.0]).expect("a distribution");
         assert!([1e-12, 0.5, 1.0 - 1e-12].iter().all(|share| (0.9..=1.0).contains(&number(narrow.quantile(*share)))));
+        // The logarithm is half-normal.
+        let lognormal = Distribution::lognormal(0.4, 0.5, [0.4, f64::INFINITY]).expect("a distribution");
+        assert!((number(lognormal.quantile(0.5)) - 0.4 * (0.5f64 * 0.674_490).exp()).abs() < 1e-6);
     }
 
     #[test]

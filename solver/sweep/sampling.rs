@@ -107,13 +107,23 @@ mod tests {
         );
     }
 
-    /// Means of `x`, `x²` and `x y` over the unit square: 1/2, 1/3, 1/4. Plain samples err by `1/√n`, the others by less.
+    /// Means of `x`, `x²` and `x y` over the unit square: 1/2, 1/3, 1/4, within four standard errors of the method.
     #[test]
     fn means_over_the_unit_square_are_met() {
         let samples = 4096;
-        for (method, error) in
-            [(SamplingMethod::Plain, 0.02), (SamplingMethod::LatinHypercube, 0.01), (SamplingMethod::Sobol, 0.0005)]
-        {
+        // Variances of plain samples: 1/3 - 1/4, 1/5 - 1/9, 1/9 - 1/16.
+        let plain = [1.0 / 12.0, 4.0 / 45.0, 7.0 / 144.0].map(f64::sqrt);
+        // With one sample in each of `n` intervals, `x` and `x²` vary within theirs alone: by 1/n and 2x/n over √12, the mean of 4x² is 4/3. Of `x y`
+        // remains the product of the deviations from both means.
+        let [x, square] = [1.0f64, 4.0 / 3.0].map(|mean| (mean / 12.0).sqrt() / f64::from(samples));
+        let hypercube = [x, square, 1.0 / 12.0];
+        // A Sobol sequence has one sample in each of 64 × 64 squares as well: `x y` varies within its square, the mean of x² + y² is 2/3.
+        let sobol = [x, square, (2.0f64 / 3.0 / 12.0).sqrt() / 64.0];
+        for (method, deviations) in [
+            (SamplingMethod::Plain, plain),
+            (SamplingMethod::LatinHypercube, hypercube),
+            (SamplingMethod::Sobol, sobol),
+        ] {
             let sampling = Sampling { samples, method, seed: 7 };
             let mut sums = [0.0; 3];
             for sample in 0..samples {
@@ -121,9 +131,9 @@ mod tests {
                 assert!(x > 0.0 && x < 1.0);
                 sums = [sums[0] + x, sums[1] + x * x, sums[2] + x * y];
             }
-            for (sum, exact) in sums.iter().zip([1.0 / 2.0, 1.0 / 3.0, 1.0 / 4.0]) {
-                let found = sum / f64::from(samples);
-                assert!((found - exact).abs() < error, "{}: {found} and {exact}", method.name());
+            for ((sum, exact), deviation) in sums.iter().zip([1.0 / 2.0, 1.0 / 3.0, 1.0 / 4.0]).zip(deviations) {
+                let (found, error) = (sum / f64::from(samples), 4.0 * deviation / f64::from(samples).sqrt());
+                assert!((found - exact).abs() < error, "{}: {found} and {exact}, allowed {error:e}", method.name());
             }
         }
     }
