@@ -44,6 +44,22 @@ pub fn put_in_place(file: NamedTempFile, place: &Path) -> Result<()> {
     file.persist(place).map(|_| ()).map_err(|error| error.error)
 }
 
+/// Whether a path still leads to this open file, and not to another one of the same name.
+pub fn is_at(file: &File, path: &Path) -> bool {
+    let (own, there) = (file.metadata(), std::fs::metadata(path));
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        let place = |found: Result<std::fs::Metadata>| found.ok().map(|found| (found.dev(), found.ino()));
+        let own = place(own);
+        own.is_some() && own == place(there)
+    }
+    #[cfg(not(unix))]
+    {
+        own.is_ok() && there.is_ok()
+    }
+}
+
 /// Gives `new` the permissions of the file `old` that it is to replace, if there is one.
 pub fn keep_permissions(new: &Path, old: &Path) -> Result<()> {
     std::fs::metadata(old).map_or(Ok(()), |old| std::fs::set_permissions(new, old.permissions()))

@@ -43,6 +43,8 @@ fn files_have_the_permissions_of_new_files_and_keep_their_own() {
     }
     folder.succeeds("sweep sweep.toml --out table.csv --plot table.svg");
     assert_eq!(files.map(|name| mode(&folder, name)), [0o640, 0o640]);
+    masked(&folder, "022", "run scene.toml --quiet");
+    assert_eq!(mode(&folder, "out/summary.json"), 0o600);
 }
 
 #[test]
@@ -50,13 +52,20 @@ fn write_protected_files_are_not_replaced() {
     let folder = Folder::with("scene.toml", SCENE);
     folder.write("base.toml", BASE);
     folder.write("sweep.toml", SWEEP);
-    folder.succeeds("run scene.toml");
+    folder.succeeds("run scene.toml --report");
     folder.succeeds("sweep sweep.toml --out table.csv");
-    for name in ["out/response.csv", "table.csv"] {
-        fs::set_permissions(folder.path(name), Permissions::from_mode(0o444)).expect("set");
-    }
-    folder.refused("run scene.toml", &["out/response.csv", "write-protected"]);
+    let protect = |name: &str, mode: u32| {
+        fs::set_permissions(folder.path(name), Permissions::from_mode(mode)).expect("set");
+    };
+    protect("table.csv", 0o444);
     folder.refused("sweep sweep.toml --out table.csv", &["table.csv", "write-protected"]);
+    // A report of an earlier run would be removed.
+    for name in ["out/response.csv", "out/report.html"] {
+        protect(name, 0o444);
+        folder.refused("run scene.toml", &[name, "write-protected"]);
+        protect(name, 0o644);
+    }
+    folder.succeeds("run scene.toml");
 }
 
 #[test]

@@ -38,3 +38,16 @@ fn studies_and_sweeps_print_the_warnings_of_their_records_once() {
     assert_eq!(warnings(&folder, "ida study.toml --out c.csv --quiet"), [""; 0]);
     assert_eq!(warnings(&folder, "sweep sweep.toml --out d.csv --quiet"), [""; 0]);
 }
+
+#[test]
+fn a_shard_warns_of_its_own_records() {
+    let folder = folder(3);
+    folder.write(
+        "sweep.toml",
+        "scene = \"scene.toml\"\n[axes]\n\"excitation.horizontal.file\" = { folder = \"records\" }\n",
+    );
+    for number in 1..=3 {
+        let found = warnings(&folder, &format!("sweep sweep.toml --shard {number}/3"));
+        assert!(found.len() == 1 && found[0].contains(&format!("GM_{number}.AT2")), "{number}: {found:?}");
+    }
+}

@@ -45,19 +45,17 @@ impl Motion {
                 let [velocity, displacement] = interval.peaks();
                 note([a, velocity, displacement]);
             }
-            let mut before = [None; 2];
-            for t in places(start, end, span.piece.omega()) {
-                // Where a stretch begins, the intervals change.
-                if state.t == Some(t) {
-                    before = [None; 2];
+            for times in stretches(start, end, span.piece.omega()) {
+                let mut before = [None; 2];
+                for t in times {
+                    state.move_with(&span.piece, t);
+                    let values = [span.piece.value(t), state.velocity, state.displacement];
+                    note(values);
+                    if let [Some(first), Some(middle)] = before {
+                        note(std::array::from_fn(|of| crest([first, middle, values].map(|all: [f64; 3]| all[of]))));
+                    }
+                    before = [before[1], Some(values)];
                 }
-                state.move_with(&span.piece, t);
-                let values = [span.piece.value(t), state.velocity, state.displacement];
-                note(values);
-                if let [Some(first), Some(middle)] = before {
-                    note(std::array::from_fn(|of| crest([first, middle, values].map(|all: [f64; 3]| all[of]))));
-                }
-                before = [before[1], Some(values)];
             }
         }
         if self.end().is_none_or(|end| until < end) {
@@ -81,23 +79,23 @@ const PLACES_PER_RADIAN: f64 = 32.0;
 /// Largest number of such times per piece. It bounds the cost of a harmonic motion without end.
 const MOST_PLACES: usize = 100_000;
 
-/// The times from `start` to `end` `[s]` at which a formula of the angular frequency `omega [rad/s]` is evaluated. If there would be too
-/// many, a third of them is as dense as it should be after the start, a third before the end, and the last third is spread over the time
-/// between. Each dense stretch has 166 periods. A harmonic motion repeats its acceleration and velocity in each, and the displacement,
+/// The times from `start` to `end` `[s]` at which a formula of the angular frequency `omega [rad/s]` is evaluated: in each stretch at equal intervals, with
+/// both of its ends. If there would be too many, a third of them is as dense as it should be after the start, a third before the end, and the last third is
+/// spread over the time between. Each dense stretch has 166 periods. A harmonic motion repeats its acceleration and velocity in each, and the displacement,
 /// which drifts, is largest in the first or the last one.
-fn places(start: f64, end: f64, omega: f64) -> impl Iterator<Item = f64> {
+fn stretches(start: f64, end: f64, omega: f64) -> impl Iterator<Item = impl Iterator<Item = f64>> {
     let needed = PLACES_PER_RADIAN * omega * (end - start);
     let third = MOST_PLACES / 3;
     let dense = third as f64 / (PLACES_PER_RADIAN * omega);
     let stretches = if needed <= MOST_PLACES as f64 {
         // Crests of a pulse lie at its quarters and eighths.
         let count = (needed.ceil() as usize).next_multiple_of(8).max(1);
-        [(start, end, count), (end, end, 0), (end, end, 0)]
+        vec![(start, end, count)]
     } else {
-        [(start, start + dense, third), (start + dense, end - dense, third), (end - dense, end, third)]
+        vec![(start, start + dense, third), (start + dense, end - dense, third), (end - dense, end, third)]
     };
-    stretches.into_iter().flat_map(|(from, to, count)| {
-        (0..=count).map(move |place| from + (to - from) * place as f64 / count.max(1) as f64)
+    stretches.into_iter().map(|(from, to, count)| {
+        (0..=count).map(move |place| if place == count { to } else { from + (to - from) * place as f64 / count as f64 })
     })
 }
 
@@ -194,6 +192,19 @@ mod tests {
         );
         let wavelet = Motion::AntisymmetricRicker { amplitude: 2.0, omega: 4.0, start: 0.0 };
         assert!((wavelet.peaks(0.0, 100.0)[0] - 2.0).abs() < 2e-5);
+    }
+
+    /// Half-sines leave the ground with the velocity `2a/ω`, displaced by `πa/ω²`. The last time of a stretch is the end of the pulse, not a rounding beside it.
+    #[test]
+    fn peaks_of_half_sines_are_those_at_their_end() {
+        for (period, start) in (10..200).flat_map(|k| [0.0, 0.1, 0.3, 1.7].map(|start| (f64::from(k) * 0.01, start))) {
+            let (amplitude, omega) = (10.0, TAU / period);
+            let peaks = Motion::HalfSine { amplitude, omega, start }.peaks(0.0, 10.0);
+            let expected = [amplitude, 2.0 * amplitude / omega, PI * amplitude / (omega * omega)];
+            for (peak, expected) in peaks.iter().zip(expected) {
+                assert!((peak / expected - 1.0).abs() < 3e-8, "{period} {start}: {peaks:?}");
+            }
+        }
     }
 
     /// A sine from rest moves the ground with the velocity `a/ω (1 - cos ωt)`; a cosine brings it back in every period.

@@ -24,8 +24,8 @@ pub fn scene(py: Python<'_>, error: &SceneFileError) -> PyErr {
         SceneFileError::Scene { file, line, key, problem, remedy, .. } => {
             exception(py, "SceneError", (text, shown(file), *line, key, problem, remedy))
         }
-        SceneFileError::Record { file, line, key, record, problem } => {
-            let class = if record.exists() { "SceneError" } else { "MissingFileError" };
+        SceneFileError::Record { file, line, key, record, problem, is_missing } => {
+            let class = if *is_missing { "MissingFileError" } else { "SceneError" };
             exception(py, class, (text, shown(file), *line, key, problem, "", shown(record)))
         }
         SceneFileError::Several { faults } => {

@@ -58,7 +58,7 @@ impl Sweep {
 
     /// Warnings about the ground motions of all points, or of this number of evenly spread ones.
     fn warnings(&self, py: Python<'_>, most: usize) -> Vec<String> {
-        py.detach(|| self.sweep.warnings(most))
+        py.detach(|| self.sweep.warnings(0..self.sweep.len(), most))
     }
 
     #[getter]

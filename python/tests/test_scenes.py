@@ -253,6 +253,11 @@ def test_a_record_that_is_not_there_is_a_file_not_found(tmp_path: Path) -> None:
     with pytest.raises(rk.SceneError) as caught_too:
         rk.Scene(COLUMN, {"kind": "record", "file": str(damaged)})
     assert caught_too.value.record == str(damaged) and not isinstance(caught_too.value, FileNotFoundError)
+    # The record of a station is there, and has no vertical component.
+    rk.Record.synthetic(1).to_csv(tmp_path / "S_000.csv")
+    with pytest.raises(rk.SceneError) as station:
+        rk.Scene(COLUMN, keys={"excitation.station": {"record": str(tmp_path / "S"), "vertical": True}})
+    assert station.value.record and not isinstance(station.value, FileNotFoundError)
 
 
 def test_what_a_motion_gives_out_changes_no_scene() -> None:

@@ -1,7 +1,7 @@
 //! Files under temporary names, until they are complete and renamed.
 //!
-//! The process that writes a draft locks it. Who is killed leaves drafts without a lock behind, which the next run into the folder removes. (On Unix: on other
-//! systems a locked file can neither be read nor renamed.)
+//! The process that writes a draft locks it. Who is killed leaves drafts without a lock behind, and second names of what was to be replaced; the next run
+//! into the folder removes them. (On Unix: on other systems a locked file can neither be read nor renamed.)
 
 use super::digest::Digest;
 use std::fs::{File, TryLockError};
@@ -24,9 +24,8 @@ pub struct Draft {
 impl Draft {
     /// A new draft in a folder, and the file to write.
     pub fn create(folder: &Path) -> Result<(Draft, File), Error> {
-        static COUNT: AtomicU64 = AtomicU64::new(0);
         loop {
-            let path = folder.join(format!("{PREFIX}{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed)));
+            let path = new_name(folder);
             match File::create_new(&path) {
                 // Another process may have taken it for an abandoned one before it was locked.
                 Ok(file) if is_locked_by_others(&file) || !path.exists() => {}
@@ -37,6 +36,12 @@ impl Draft {
             }
         }
     }
+}
+
+/// A name for a draft that this process has not used before.
+fn new_name(folder: &Path) -> PathBuf {
+    static COUNT: AtomicU64 = AtomicU64::new(0);
+    folder.join(format!("{PREFIX}{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed)))
 }
 
 impl Drop for Draft {
@@ -51,7 +56,8 @@ pub fn remove_abandoned(folder: &Path) {
     let is_draft = |path: &PathBuf| path.file_name().is_some_and(|name| is_name(&name.to_string_lossy()));
     let drafts = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()).filter(is_draft);
     for path in drafts.filter(|path| cfg!(unix) && path.is_file()) {
-        if File::open(&path).is_ok_and(|file| !is_locked_by_others(&file)) {
+        // A lock needs the right to write on some systems; where there are no locks, a draft may be in use.
+        if File::options().write(true).open(&path).is_ok_and(|file| file.try_lock().is_ok()) {
             let _ = std::fs::remove_file(&path);
         }
     }
@@ -64,7 +70,7 @@ fn is_name(name: &str) -> bool {
     numbers.is_some_and(|(process, count)| is_number(process) && is_number(count))
 }
 
-/// The lock of a folder, as long as a run is written into it. On systems that cannot lock a folder it holds nothing.
+/// The lock of a folder, as long as a run is written into it. Systems and file systems that cannot lock a folder keep no other run out.
 #[derive(Debug)]
 pub struct FolderLock(#[expect(dead_code, reason = "keeps the lock")] Option<File>);
 
@@ -79,19 +85,37 @@ impl FolderLock {
 
 /// Files that are changed, with a second name of what was there before, if anything was: if something fails, it comes back.
 #[derive(Default)]
-pub struct Replaced(Vec<(PathBuf, Option<Draft>)>);
+pub struct Replaced(Vec<(PathBuf, Option<SecondName>)>);
+
+/// A name under which a file stays until this value is dropped.
+struct SecondName(PathBuf);
+
+impl SecondName {
+    /// A second name in the folder of the file. Where the system gives none, the file loses its first one.
+    fn of(path: &Path) -> Result<SecondName, Error> {
+        loop {
+            let name = new_name(path.parent().unwrap_or(Path::new("")));
+            match std::fs::hard_link(path, &name) {
+                Ok(()) => return Ok(SecondName(name)),
+                Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+                Err(_) => return std::fs::rename(path, &name).map(|()| SecondName(name)),
+            }
+        }
+    }
+}
+
+impl Drop for SecondName {
+    fn drop(&mut self) {
+        // An error leaves a file behind, which harms nothing.
+        let _ = std::fs::remove_file(&self.0);
+    }
+}
 
 impl Replaced {
     /// Keeps a file before it is made, replaced or removed.
     pub fn keep(&mut self, path: &Path) -> Result<(), Error> {
-        let keep = || {
-            let (kept, _) = Draft::create(path.parent().unwrap_or(Path::new("")))?;
-            std::fs::remove_file(&kept.path)?;
-            // A second name of the file takes no room; where the system has none, a copy serves.
-            std::fs::hard_link(path, &kept.path).or_else(|_| std::fs::copy(path, &kept.path).map(drop))?;
-            Ok::<Draft, Error>(kept)
-        };
-        let kept = path.is_file().then(keep).transpose()?;
+        let is_there = path.symlink_metadata().is_ok_and(|found| !found.is_dir());
+        let kept = is_there.then(|| SecondName::of(path)).transpose()?;
         self.0.push((path.into(), kept));
         Ok(())
     }
@@ -100,7 +124,7 @@ impl Replaced {
     pub fn restore(self) {
         for (path, kept) in self.0.iter().rev() {
             let _ = match kept {
-                Some(kept) => std::fs::rename(&kept.path, path),
+                Some(SecondName(kept)) => std::fs::rename(kept, path),
                 None => std::fs::remove_file(path),
             };
         }

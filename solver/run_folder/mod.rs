@@ -47,7 +47,7 @@ pub struct SceneText {
     pub text: String,
 }
 
-/// A path as text: JSON has no other signs than those of UTF-8.
+/// A path as text. JSON is UTF-8: other names have replacement signs.
 fn text_of<S: Serializer>(path: &Path, to: S) -> Result<S::Ok, S::Error> {
     to.collect_str(&path.display())
 }
@@ -76,8 +76,8 @@ pub enum FolderError {
         /// The file.
         path: PathBuf,
     },
-    /// Another run is being written into the folder.
-    #[error("{}: another run is being written into it; wait for that, or choose a folder that can be written to", path.display())]
+    /// Another run is being written into the folder, or another program has locked it.
+    #[error("{}: another run is being written into it, or another program has locked it; wait for that, or choose a folder that can be written to", path.display())]
     Running {
         /// The folder.
         path: PathBuf,

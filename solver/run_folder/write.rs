@@ -15,7 +15,7 @@ use rocking_ground::{Description, Motion};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::{BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// A finished run, to be written.
@@ -141,7 +141,8 @@ struct Summary<'a> {
     digests: BTreeMap<&'static str, Digest>,
 }
 
-/// The folder of a run's results, proved to be writable. As long as this value exists, no other run is written into the folder (on Unix).
+/// The folder of a run's results, proved to be writable. As long as this value exists, no other run is written into the folder (on Unix, where its file
+/// system has locks).
 #[derive(Debug)]
 pub struct Folder {
     path: PathBuf,
@@ -163,9 +164,11 @@ impl Folder {
         draft::remove_abandoned(path);
         let folder = Folder { path: path.into(), _lock: lock };
         folder.draft(|_| Ok(()))?;
-        for file in FILES.iter().map(|name| path.join(name)) {
+        for file in FILES.iter().chain([&COMPANIONS]).map(|name| path.join(name)) {
             match std::fs::metadata(&file) {
-                Ok(found) if found.is_dir() => return Err(FolderError::Taken { path: file }),
+                Ok(found) if found.is_dir() && !file.ends_with(COMPANIONS) => {
+                    return Err(FolderError::Taken { path: file });
+                }
                 Ok(found) if found.permissions().readonly() => return Err(FolderError::Protected { path: file }),
                 _ => {}
             }
@@ -173,8 +176,9 @@ impl Folder {
         Ok(folder)
     }
 
-    /// Writes the files of a run: none is put in place before all are written, and if that fails, the folder is as it was. [`Results::read`](super::Results::read) reads runs that have rows and peaks:
-    /// those with `output_dt` or `output_times`, of which everything is requested.
+    /// Writes the files of a run. None is put in place before all are written; where one cannot be put in place, the folder stays as it was.
+    /// [`Results::read`](super::Results::read) reads runs that have rows and peaks: those with `output_dt` or `output_times`, of which everything is
+    /// requested.
     ///
     /// # Errors
     /// [`FolderError::Write`]
@@ -204,8 +208,19 @@ impl Folder {
             changed.map_err(|source| FolderError::Write { path, source })
         };
         let mut outdated = outdated.iter().filter(|name| self.path.join(name).is_file());
-        let removed = outdated.try_for_each(|name| change(name, &|path| std::fs::remove_file(path)));
-        let mut named = |(name, draft): &(&str, Draft)| change(name, &|path| std::fs::rename(&draft.path, path));
+        let remove = |path: &Path| match std::fs::remove_file(path) {
+            // What is kept may have lost this name already.
+            Err(error) if error.kind() == ErrorKind::NotFound => Ok(()),
+            removed => removed,
+        };
+        let removed = outdated.try_for_each(|name| change(name, &remove));
+        let rename = |draft: &Path, path: &Path| {
+            // A file that is replaced keeps its permissions.
+            let old = std::fs::metadata(path).map(|found| found.permissions());
+            old.map_or(Ok(()), |old| std::fs::set_permissions(draft, old))?;
+            std::fs::rename(draft, path)
+        };
+        let mut named = |(name, draft): &(&str, Draft)| change(name, &|path| rename(&draft.path, path));
         let changed = removed.and_then(|()| drafts.iter().try_for_each(&mut named));
         if changed.is_err() {
             replaced.restore();

@@ -54,6 +54,8 @@ pub enum SceneFileError {
         record: PathBuf,
         /// What is wrong, with line and column of the record, and what to do.
         problem: String,
+        /// Whether there is no such file.
+        is_missing: bool,
     },
 }
 

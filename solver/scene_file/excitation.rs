@@ -8,6 +8,7 @@ use crate::intensity::{DEFAULT_DAMPING, Intensity, NAMES};
 use crate::scene::LARGEST;
 use rocking_ground::{AccelerationUnit, Excitation, Measure, Motion, Record, RecordError, Synthetic, TextOptions};
 use std::f64::consts::TAU;
+use std::io::ErrorKind;
 use std::path::Path;
 
 /// Kinds of ground motion, as a scene names them.
@@ -196,10 +197,15 @@ impl Reader<'_> {
         if let Some(record) = self.records.and_then(|records| records.get(&kept())) {
             return Ok(record.named(name));
         }
-        let refuse = |problem: String| Fault::of_record(table, key, path.clone(), problem);
-        let bytes = rocking_ground::read_file(&path)
-            .map_err(|error| refuse(format!("{error}; its path is relative to {FILE_THAT_NAMES}")))?;
-        let record = Record::from_bytes(&bytes, options).map_err(|error| refuse(error.to_string()))?;
+        let bytes = rocking_ground::read_file(&path).map_err(|error| Fault::Record {
+            place: table.find(key),
+            key: table.dotted(key),
+            record: path.clone(),
+            problem: format!("{error}; its path is relative to {FILE_THAT_NAMES}"),
+            is_missing: error.kind() == ErrorKind::NotFound,
+        })?;
+        let refused = |error: RecordError| Fault::of_record(table, key, path.clone(), error.to_string());
+        let record = Record::from_bytes(&bytes, options).map_err(refused)?;
         if let Some(records) = self.records {
             records.keep(kept(), &record);
         }

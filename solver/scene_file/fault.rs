@@ -22,6 +22,8 @@ pub(crate) enum Fault {
         record: PathBuf,
         /// What is wrong, and what to do.
         problem: String,
+        /// Whether there is no such file.
+        is_missing: bool,
     },
     /// Another scene file, which a key names.
     OtherFile(Box<SceneFileError>),
@@ -30,7 +32,7 @@ pub(crate) enum Fault {
 impl Fault {
     /// A record that a key of `table` names.
     pub fn of_record(table: &Table, key: &str, record: PathBuf, problem: String) -> Fault {
-        Fault::Record { place: table.find(key), key: table.dotted(key), record, problem }
+        Fault::Record { place: table.find(key), key: table.dotted(key), record, problem, is_missing: false }
     }
 
     /// A scene that the key `scene` of `table` names. One that cannot be read is a fault of that key.

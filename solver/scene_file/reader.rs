@@ -101,8 +101,8 @@ impl Reader<'_> {
                 let mut faults: Vec<_> = wrongs.into_iter().map(|wrong| self.error(wrong)).collect();
                 if faults.len() == 1 { faults.remove(0) } else { SceneFileError::Several { faults } }
             }
-            Fault::Record { place, key, record, problem } => {
-                SceneFileError::Record { file, line: self.line(&place), key, record, problem }
+            Fault::Record { place, key, record, problem, is_missing } => {
+                SceneFileError::Record { file, line: self.line(&place), key, record, problem, is_missing }
             }
             Fault::OtherFile(error) => *error,
         }

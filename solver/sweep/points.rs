@@ -236,6 +236,13 @@ pub struct Row {
     pub result: Result<Outcome, PointError>,
 }
 
+/// As [`Sweep::evenly_spread`], of some of the points.
+fn evenly_spread(points: Range<usize>, most: usize) -> impl Iterator<Item = usize> {
+    let count = points.len().min(most);
+    let steps = (count.max(2) - 1) as u128;
+    (0..count).map(move |place| points.start + ((points.len() - 1) as u128 * place as u128 / steps) as usize)
+}
+
 /// Smallest number of points that a thread takes at once. Consecutive points share work, and short runs are not worth handing out singly.
 const LEAST_POINTS: usize = 16;
 
@@ -337,15 +344,12 @@ impl Sweep {
 
     /// Numbers of points spread evenly over the sweep, the first and the last among them: all if there are no more than `most`, otherwise as many.
     pub fn evenly_spread(&self, most: usize) -> impl Iterator<Item = usize> + use<> {
-        let points = self.len();
-        let count = points.min(most);
-        let steps = (count.max(2) - 1) as u128;
-        (0..count).map(move |place| ((points - 1) as u128 * place as u128 / steps) as usize)
+        evenly_spread(0..self.len(), most)
     }
 
-    /// Warnings about the ground motions of its points, a sentence each, each once: of all points, or of `most` evenly spread ones.
-    pub fn warnings(&self, most: usize) -> Vec<String> {
-        let scenes = self.evenly_spread(most).filter_map(|point| self.scene(point).ok());
+    /// Warnings about the ground motions of these points, a sentence each, each once: of all of them, or of `most` evenly spread ones.
+    pub fn warnings(&self, points: Range<usize>, most: usize) -> Vec<String> {
+        let scenes = evenly_spread(points, most).filter_map(|point| self.scene(point).ok());
         Excitation::warnings_of_all(scenes.map(|scene| scene.excitation))
     }
 

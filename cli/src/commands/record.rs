@@ -214,7 +214,7 @@ pub struct Description {
     pub warnings: Vec<String>,
 }
 
-/// A path as text: JSON has no other signs than those of UTF-8.
+/// A path as text. JSON is UTF-8: other names have replacement signs.
 fn text_of<S: Serializer>(path: &Path, to: S) -> Result<S::Ok, S::Error> {
     to.collect_str(&path.display())
 }

@@ -35,6 +35,7 @@ fn inputs_of(results: &Results) -> Vec<PathBuf> {
 /// Writes the page of the run in `folder` to `file`, or else beside its results.
 pub fn report(folder: &Path, file: Option<&Path>) -> Result<(), Failure> {
     let file = file.map_or_else(|| folder.join(NAME), Path::to_path_buf);
+    output::target(&file)?;
     let is_page = |end: &OsStr| ["html", "htm"].iter().any(|page| end.eq_ignore_ascii_case(page));
     if !file.extension().is_some_and(is_page) {
         return Err(Failure::NoPage(file));

@@ -55,15 +55,14 @@ pub fn run(request: &Run) -> Result<(), Failure> {
     }
     // Before anything is printed: a pipe that is closed loses no figure.
     let drawn = drawn(request);
-    if !request.quiet && !request.json {
-        print(&account(&scene, &response, &followed))?;
+    match (request.quiet, request.json) {
+        (true, _) => {}
+        (false, true) => json_text(&folder.summary()?)?,
+        (false, false) => print(&account(&scene, &response, &followed))?,
     }
     let written = [names_of_results(out), drawn?].concat();
-    if request.quiet {
+    if request.quiet || request.json {
         return Ok(());
-    }
-    if request.json {
-        return json_text(&folder.summary()?);
     }
     print(&format!("wrote {} to {}\n", written.join(", "), shown(out)))
 }
@@ -80,7 +79,8 @@ fn check_outputs(request: &Run, template: &Template, outdated: &[String]) -> Res
     let of_run = FILES.into_iter().chain([COMPANIONS]).map(String::from);
     let touched: Vec<PathBuf> = of_run.chain(outdated.iter().cloned()).map(|name| out.join(name)).collect();
     let figures = NAMES.iter().filter(|_| request.plots).map(|name| out.join(format!("{name}.svg")));
-    output::check_writable(figures.chain(request.report.then(|| out.join(report::NAME))))?;
+    let removed = outdated.iter().map(|name| out.join(name)).filter(|path| path.is_file());
+    output::check_writable(figures.chain(request.report.then(|| out.join(report::NAME))).chain(removed))?;
     let inputs: Vec<PathBuf> = template.records().into_iter().chain([request.scene.clone()]).collect();
     output::check_not_inputs(&inputs, touched)
 }

@@ -40,8 +40,7 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
     let columns = columns(&sweep)?;
     let threads = threads(request.threads)?;
     if !request.quiet {
-        // A shard reads no more scenes than it runs.
-        warn_of_some(&sweep.warnings(POINTS_READ.min(points(request, &sweep).len())));
+        warn_of_some(&sweep.warnings(points(request, &sweep), POINTS_READ));
     }
     let digest = TableDigest::of(&sweep, &request.file)?;
     let (table, resumed) = filled(request, &sweep, digest, &target, &columns, &threads)?;

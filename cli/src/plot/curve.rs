@@ -50,8 +50,8 @@ pub fn thin_along_x(points: &[Point]) -> Vec<Point> {
 /// Largest distance of an omitted point from the drawn curve `[px]`: a tenth of a pixel of the PNG.
 const STRAIGHT: f64 = 0.03;
 
-/// Number of points from one that is kept in any case to the next: a curve that goes up and down at each point takes a time that grows with the square of
-/// their number.
+/// Number of points from one that is kept in any case to the next. Otherwise a curve that goes up and down at each point would take a time that grows with
+/// the square of their number.
 const POINTS_AT_ONCE: usize = 100;
 
 /// A curve without the points that lie on a straight line between others (Douglas and Peucker 1973).

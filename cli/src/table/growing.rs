@@ -10,7 +10,7 @@ use super::column::Column;
 #[cfg(feature = "parquet")]
 use super::parquet;
 use crate::error::{Failure, at};
-use crate::files::keep_permissions;
+use crate::files::{is_at, keep_permissions};
 use crate::progress::Progress;
 use csv::StringRecord;
 use rayon::ThreadPool;
@@ -64,7 +64,7 @@ impl Growing {
                 return Err(Failure::Running(out.into()));
             }
             // Another process may have finished the file, and given it the name of the table, before it was locked.
-            if part.exists() {
+            if is_at(&file, &part) {
                 break file;
             }
         };

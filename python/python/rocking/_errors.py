@@ -95,7 +95,7 @@ MOST_WARNINGS = 10
 def warn(sentences: list[str]) -> None:
     """Warns of the first of these, and of how many others there are, at the line from which the package was called."""
     stacklevel, frame = 2, sys._getframe(1)
-    while frame.f_back is not None and frame.f_globals.get("__name__", "").split(".")[0] == __package__:
+    while frame.f_back is not None and (frame.f_globals.get("__name__") or "").split(".")[0] == __package__:
         stacklevel, frame = stacklevel + 1, frame.f_back
     others = len(sentences) - MOST_WARNINGS
     for sentence in sentences[:MOST_WARNINGS] + ([f"and {others} more"] if others > 0 else []):

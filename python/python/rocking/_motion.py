@@ -22,6 +22,9 @@ class Motion(Mapping[str, Any]):
     def __getitem__(self, key: str) -> Any:
         return copied(self._keys[key])
 
+    def __contains__(self, key: object) -> bool:
+        return key in self._keys
+
     def __iter__(self) -> Iterator[str]:
         return iter(self._keys)
 
@@ -59,7 +62,7 @@ def pulse(
     duration: float | None = None,
     cycles: int | None = None,
 ) -> Motion:
-    """A motion by a formula. Exactly one amplitude is given, and one frequency, which only the rectangular pulses have not.
+    """A motion by a formula. Exactly one amplitude is given, and one frequency; rectangular pulses have a duration in its place.
 
     The scene that takes the motion checks its keys, and raises :class:`SceneError`. Formulas and sources are in the book's chapter Ground motion.
 
