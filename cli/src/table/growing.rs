@@ -56,18 +56,7 @@ impl Growing {
         name.push(out.file_name().unwrap_or_default());
         name.push(format!(".{fingerprint:016x}.part"));
         let part = out.with_file_name(name);
-        let mut file = loop {
-            let mut options = File::options();
-            let file = options.read(true).write(true).create(true).truncate(false).open(&part).map_err(&failed)?;
-            // Two processes at once would mix their rows. On other systems a lock would also keep this program from reading the file.
-            if cfg!(unix) && matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
-                return Err(Failure::Running(out.into()));
-            }
-            // Another process may have finished the file, and given it the name of the table, before it was locked.
-            if is_at(&file, &part) {
-                break file;
-            }
-        };
+        let mut file = opened(&part, out)?;
         let first = points.start;
         let is_row = |row: &StringRecord, point: usize| {
             points.contains(&point) && row.len() == columns.len() && row[0] == *point.to_string() && is_row(row, point)
@@ -145,6 +134,28 @@ impl Growing {
                 }
                 std::fs::remove_file(&self.part).map_err(failed)
             }
+        }
+    }
+}
+
+/// Largest number of times that a hidden file is opened: on some file systems a file has another number each time it is asked for.
+const MOST_TRIES: usize = 100;
+
+/// The hidden file `part` of the table `out`, which is made if there is none, locked.
+fn opened(part: &Path, out: &Path) -> Result<File, Failure> {
+    let mut options = File::options();
+    options.read(true).write(true).create(true).truncate(false);
+    let mut tries = 0;
+    loop {
+        let file = options.open(part).map_err(at(Failure::File, out))?;
+        // Two processes at once would mix their rows. On other systems a lock would also keep this program from reading the file.
+        if cfg!(unix) && matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
+            return Err(Failure::Running(out.into()));
+        }
+        tries += 1;
+        // Another process may have finished the file, and given it the name of the table, before it was locked.
+        if is_at(&file, part) || tries == MOST_TRIES {
+            return Ok(file);
         }
     }
 }
