@@ -194,7 +194,8 @@ mod tests {
         assert!((wavelet.peaks(0.0, 100.0)[0] - 2.0).abs() < 2e-5);
     }
 
-    /// Half-sines leave the ground with the velocity `2a/ω`, displaced by `πa/ω²`. The last time of a stretch is the end of the pulse, not a rounding beside it.
+    /// Half-sines leave the ground with the velocity `2a/ω`, displaced by `πa/ω²`. The last time of a stretch is the end of the pulse, not a rounding
+    /// beside it.
     #[test]
     fn peaks_of_half_sines_are_those_at_their_end() {
         for (period, start) in (10..200).flat_map(|k| [0.0, 0.1, 0.3, 1.7].map(|start| (f64::from(k) * 0.01, start))) {

@@ -36,8 +36,9 @@ class Trust:
     same_block: bool
     """Whether all companions lose the same block as the run, or none where the run loses none."""
     companions: tuple[dict[str, Any], ...] = field(repr=False)
-    """For each companion: ``change`` (``tolerance`` with its factor, or ``excitation`` or ``sizes`` with the relative change), ``verdict`` (None if the run failed), the ``block``
-    that is lost (None if none is), ``ends_at`` [s], ``parts_at`` [s] (None if it agrees to the end), and the largest ``difference``, as in ``amplification``."""
+    """For each companion: its ``change`` (``tolerance`` with the factor, or ``excitation`` or ``sizes`` with the relative change), its ``verdict`` (None if the
+    run failed), the ``block`` that is lost (None if none is), ``ends_at`` [s], ``parts_at`` [s] (None if it agrees to the end), and the largest
+    ``difference``, as in ``amplification``."""
     further: dict[str, int] | None
     """More companions with changes up to 1e-6: how many ``runs``, and how many ``others`` failed or have another verdict; None where the first ones decide."""
     fold: dict[str, Any] | None
