@@ -5,16 +5,17 @@ use super::chain::{Chain, Rates};
 use super::contact_problem::{Coefficients, Question, Touch};
 use super::joint::{Configuration, Face, Joint, Sign, Slip, face};
 use super::random::Random;
+use super::rows::Answer;
 use super::search::Search;
 use crate::column::{Block, Column, Shape};
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::per_block::PerBlock;
-use friction_oracle::{Coinciding, Side, Stack, State, accelerations, impact};
+use friction_oracle::{Coinciding, Side, Stack, State, accelerations, chosen, impact, touching};
 
 #[path = "../../tests/common/friction_oracle.rs"]
 mod friction_oracle;
 
-/// A random stack of one to three blocks, as the search and as the oracle see it.
+/// A random stack of one to three blocks, as the search and as the oracle see it. Kinetic friction is at least the share `least_kinetic` of static friction.
 struct Case {
     column: Column,
     now: Configuration,
@@ -24,7 +25,7 @@ struct Case {
     state: State,
 }
 
-fn case(random: &mut Random, strikes: bool) -> Case {
+fn case(random: &mut Random, strikes: bool, least_kinetic: f64) -> Case {
     let count = 1 + random.within(0.0, 3.0) as usize;
     let (equal, b, h) = (random.happens(0.3), random.within(0.2, 0.6), random.within(0.3, 1.0));
     let block = |random: &mut Random| match equal {
@@ -83,7 +84,8 @@ fn case(random: &mut Random, strikes: bool) -> Case {
         now.slide_rate.push(slip);
     }
     let coefficients: Vec<f64> = (0..count).map(|_| random.within(0.02, 0.8)).collect();
-    let friction = Coefficients { fixed: coefficients.clone(), kinetic: coefficients.clone() };
+    let kinetic: Vec<f64> = coefficients.iter().map(|mu| mu * random.within(least_kinetic, 1.0)).collect();
+    let cone = |(still, sliding): (&f64, &f64)| friction_oracle::Friction { still: *still, sliding: *sliding };
     let body = |block: &Block| friction_oracle::Block {
         bottom: block.bottom_half_width,
         top: block.top_half_width,
@@ -94,11 +96,12 @@ fn case(random: &mut Random, strikes: bool) -> Case {
     };
     let stack = Stack {
         blocks: blocks.iter().map(body).collect(),
-        friction: coefficients.iter().map(|mu| friction_oracle::Friction::of(*mu)).collect(),
+        friction: coefficients.iter().zip(&kinetic).map(cone).collect(),
         gravity: 9.81,
         coinciding: Coinciding::BothFaces,
     };
     let state = State::stacked(&stack, &now.theta, &now.omega, &joints);
+    let friction = Coefficients { fixed: coefficients, kinetic };
     Case { column, now, touch, friction, stack, state }
 }
 
@@ -118,30 +121,30 @@ const NEAR: f64 = 1e-7;
 /// Largest relative difference between the motions of search and oracle if the oracle's worst margin is within [`NEAR`] of zero.
 const NEAR_SAME: f64 = 1e-6;
 
-fn compare(seed: u64, cases: usize) {
-    let mut random = Random::new(seed);
-    let (mut compared, mut several) = ([0; 2], [0; 2]);
-    for index in 0..cases {
-        let strikes = index % 2 == 1;
-        let Case { column, now, touch, friction, stack, state } = case(&mut random, strikes);
-        let chain = Chain::new(&column, &now);
-        let before = chain.motion(&Rates::of(&now));
+/// The motions that search and oracle find for one case, and the states that each takes.
+struct Found {
+    /// Per block, as [`friction_oracle::Solution::motion`].
+    own: Vec<[f64; 3]>,
+    states: String,
+    admissible: Vec<friction_oracle::Solution>,
+    /// The place among the admissible ones of the one that the model's rule takes.
+    chosen: Option<usize>,
+}
+
+impl Found {
+    fn of(random: &mut Random, strikes: bool, least_kinetic: f64) -> Found {
+        let Case { column, now, touch, friction, stack, state } = case(random, strikes, least_kinetic);
+        let before = Chain::new(&column, &now).motion(&Rates::of(&now));
         let ground = Ground { x: random.within(-12.0, 12.0), gravity: random.within(3.0, 15.0) };
-        let found = if strikes {
-            impact(&stack, &state)
-        } else {
-            accelerations(&stack, &state, [ground.x, ground.gravity - 9.81])
-        };
-        // Cases with several answers are not compared: a rule chooses among them. Nor are cases without any.
-        let [only] = &found[..] else {
-            several[usize::from(strikes)] += 1;
-            continue;
+        let admissible = match strikes {
+            true => impact(&stack, &state),
+            false => accelerations(&stack, &state, [ground.x, ground.gravity - 9.81]),
         };
         let question = if strikes { Question::Impact(before.clone()) } else { Question::Accelerations(ground) };
         let search = Search::new(&column, &now, &touch, &friction, question);
-        let own = search.solve_from(search.first()).expect("the oracle has an answer");
-        let motion = |block: usize| {
-            let ([x, y], angular) = (own.answer.change.linear[block], own.answer.change.angular[block]);
+        let solution = search.solve_from(search.first());
+        let motion = |answer: &Answer, block: usize| {
+            let ([x, y], angular) = (answer.change.linear[block], answer.change.angular[block]);
             match strikes {
                 true => {
                     let [u, v] = before.linear[block];
@@ -150,25 +153,60 @@ fn compare(seed: u64, cases: usize) {
                 false => [x - ground.x, y - ground.gravity, angular],
             }
         };
-        let motion: Vec<[f64; 3]> = (0..column.len()).map(motion).collect();
+        let motions = |answer: &Answer| (0..column.len()).map(|block| motion(answer, block)).collect();
+        let chosen = chosen(&admissible, &touching(&stack, &state));
+        Found {
+            own: solution.as_ref().map_or(Vec::new(), |solution| motions(&solution.answer)),
+            states: format!("{:?} of {now:?}", solution.map(|solution| solution.joints)),
+            chosen: chosen.and_then(|chosen| admissible.iter().position(|one| std::ptr::eq(one, chosen))),
+            admissible,
+        }
+    }
+
+    /// Whether the search has found this motion of the oracle's.
+    fn is(&self, other: &friction_oracle::Solution) -> bool {
         // Near a limit rounding decides between states whose motions are the same there.
-        let same = if only.margin.abs() < NEAR { NEAR_SAME } else { SAME };
-        assert!(
-            off(&motion, &only.motion) < same,
-            "case {index}: {:?} of {:?}\n{motion:?}\n{:?} {:?}",
-            own.joints,
-            now,
-            only.motion,
-            only.contacts
-        );
+        let same = if other.margin.abs() < NEAR { NEAR_SAME } else { SAME };
+        self.own.len() == other.motion.len() && off(&self.own, &other.motion) < same
+    }
+}
+
+/// Takes seven seconds of one core.
+#[test]
+fn states_found_are_those_of_brute_force_in_twenty_thousand_cases() {
+    let (mut random, cases) = (Random::new(1), 20_000);
+    let (mut compared, mut several) = ([0; 2], [0; 2]);
+    for index in 0..cases {
+        let strikes = index % 2 == 1;
+        let found = Found::of(&mut random, strikes, 1.0);
+        // Cases with several answers are not compared: a rule chooses among them. Nor are cases without any.
+        let [only] = &found.admissible[..] else {
+            several[usize::from(strikes)] += 1;
+            continue;
+        };
+        assert!(found.is(only), "case {index}: {}\n{:?}\n{only:?}", found.states, found.own);
         compared[usize::from(strikes)] += 1;
     }
     println!("{compared:?} of {cases} compared (accelerations, impacts), {several:?} with several answers or none");
     assert!(compared.iter().all(|count| *count > 9 * cases / 20), "{compared:?}");
 }
 
-/// Takes seven seconds of one core.
+/// With kinetic below static friction one state in seven has several motions. The one found is always one of them, and mostly the one that the rule takes by
+/// the letter: an opening that is admissible by itself begins no slide elsewhere, however little energy that would take.
 #[test]
-fn states_found_are_those_of_brute_force_in_twenty_thousand_cases() {
-    compare(1, 20_000);
+fn states_with_two_coefficients_are_among_those_of_brute_force() {
+    let (mut random, cases) = (Random::new(2), 10_000);
+    let (mut several, mut by_the_letter, mut checked) = (0, 0, 0);
+    for index in 0..cases {
+        let found = Found::of(&mut random, index % 2 == 1, 0.4);
+        let Some(chosen) = found.chosen else { continue };
+        let is_admissible = found.admissible.iter().any(|one| found.is(one));
+        assert!(is_admissible, "case {index}: {}\n{:?}\n{:?}", found.states, found.own, found.admissible);
+        checked += 1;
+        several += usize::from(found.admissible.len() > 1);
+        by_the_letter += usize::from(found.is(&found.admissible[chosen]));
+    }
+    println!("{checked} of {cases} checked, {several} with several motions, {by_the_letter} by the letter of the rule");
+    // Measured: 9,998, 693 and 9,918.
+    assert!(several > cases / 20 && by_the_letter * 100 > 99 * checked && checked * 100 > 99 * cases);
 }
