@@ -252,7 +252,7 @@ pub struct Record {
     pub pga: Option<f64>,
     /// Scale to a size of any measure: pga, pga_g, pgv, pgd, arias, cav, `sa(PERIOD)`, `sa_g(PERIOD DAMPING)`; pga_uplift and pgv_uplift with --scene.
     #[arg(long, value_name = "MEASURE=SIZE", conflicts_with = "pga", value_parser = target)]
-    pub scale_to: Option<(Intensity, f64)>,
+    pub scale_to: Option<Target>,
     /// Print the spectral acceleration at this period in s; may be given several times.
     #[arg(long, value_name = "PERIOD", value_parser = positive)]
     pub sa: Vec<f64>,
@@ -281,17 +281,26 @@ fn finite(text: &str) -> Result<f64, String> {
     if value.is_finite() { Ok(value) } else { Err("give a finite number".into()) }
 }
 
-fn damping(text: &str) -> Result<f64, String> {
-    finite(text).and_then(|value| {
-        if (0.0..1.0).contains(&value) {
-            Ok(value)
-        } else {
-            Err("give a share of critical damping from 0 to below 1".into())
-        }
-    })
+/// A finite number for which `holds`, or the remedy.
+fn number(text: &str, holds: impl FnOnce(f64) -> bool, remedy: impl Into<String>) -> Result<f64, String> {
+    finite(text).and_then(|value| if holds(value) { Ok(value) } else { Err(remedy.into()) })
 }
 
-fn target(text: &str) -> Result<(Intensity, f64), String> {
+fn damping(text: &str) -> Result<f64, String> {
+    number(text, |ratio| (0.0..1.0).contains(&ratio), "give a share of critical damping from 0 to below 1")
+}
+
+/// What a record is scaled to.
+#[derive(Clone, Copy, Debug)]
+pub struct Target {
+    pub intensity: Intensity,
+    /// Whether the text names the damping ratio of a spectral acceleration.
+    pub names_damping: bool,
+    /// Size, in the unit of the intensity.
+    pub size: f64,
+}
+
+fn target(text: &str) -> Result<Target, String> {
     let (name, size) = text.split_once('=').ok_or("write MEASURE=SIZE, e.g. pgv=0.5")?;
     let name = name.trim();
     let intensity = name.parse().map_err(|_: UnknownIntensity| match name.split('(').next() {
@@ -300,11 +309,13 @@ fn target(text: &str) -> Result<(Intensity, f64), String> {
         }
         _ => format!("there is no measure `{name}`; choose one of {}", NAMES.join(", ")),
     })?;
-    Ok((intensity, positive(size.trim())?))
+    let numbers = name.trim_end_matches(')').split_once('(').map_or("", |(_, numbers)| numbers);
+    let names_damping = numbers.split_whitespace().count() > 1;
+    Ok(Target { intensity, names_damping, size: positive(size.trim())? })
 }
 
 fn positive(text: &str) -> Result<f64, String> {
-    finite(text).and_then(|value| if value > 0.0 { Ok(value) } else { Err("give a number above zero".into()) })
+    number(text, |value| value > 0.0, "give a number above zero")
 }
 
 fn figure(text: &str) -> Result<PathBuf, String> {
@@ -326,10 +337,7 @@ const FORMATS: &str =
 
 fn paper_width(text: &str) -> Result<f64, String> {
     let [least, most] = WIDTHS_MM;
-    finite(text).and_then(|value| match (least..=most).contains(&value) {
-        true => Ok(value),
-        false => Err(format!("give {least} to {most} mm")),
-    })
+    number(text, |width| (least..=most).contains(&width), format!("give {least} to {most} mm"))
 }
 
 fn unit(text: &str) -> Result<AccelerationUnit, String> {
@@ -452,9 +460,7 @@ fn state(text: &str) -> Result<LimitState, String> {
 }
 
 fn share(text: &str) -> Result<f64, String> {
-    finite(text).and_then(|value| {
-        if value > 0.0 && value < 1.0 { Ok(value) } else { Err("give a share between 0 and 1".into()) }
-    })
+    number(text, |share| share > 0.0 && share < 1.0, "give a share between 0 and 1")
 }
 
 /// A part of a sweep, for one of several machines.

@@ -235,6 +235,9 @@ fn options_that_have_no_effect_are_refused() {
     };
     let [usual, damped, named] = [&[][..], &["--damping", "0.2"], &["--sa", "0.2"]].map(peak);
     assert!(usual == named && damped > 1.02 * usual, "{usual} {damped}");
+    // A ratio that the measure names is its own, also if it is the usual one.
+    let own = folder.answers(&["record", &at2, "--scale-to", "sa(0.2 0.05)=3", "--damping", "0.2", "--json"][..]);
+    assert_eq!(own["pga"].as_f64(), Some(usual));
     folder.refused(&["record", &at2, "--damping", "0.2"], &["--sa"]);
     for (option, value) in [("--column", "2"), ("--skip-rows", "1")] {
         let key = option.trim_start_matches("--").replace('-', "_");

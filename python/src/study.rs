@@ -315,7 +315,7 @@ pub fn fragility(
 /// Probability of the lognormal curve at levels.
 #[pyfunction]
 pub fn probability(median: f64, dispersion: f64, levels: Vec<f64>) -> Vec<f64> {
-    levels.iter().map(|level| studies::probit::normal((level / median).ln() / dispersion)).collect()
+    levels.iter().map(|level| studies::probit::lognormal(median, dispersion, *level)).collect()
 }
 
 /// Stripes of the runs of a table, as columns.

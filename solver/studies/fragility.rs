@@ -172,9 +172,7 @@ impl Fragility {
     /// Probability of the state at a level by the curve; `None` without one.
     pub fn probability(&self, level: f64) -> Option<f64> {
         match self.fit {
-            Fit::Lognormal { median, dispersion, .. } => {
-                Some(super::probit::normal(libm::log(level / median) / dispersion))
-            }
+            Fit::Lognormal { median, dispersion, .. } => Some(super::probit::lognormal(median, dispersion, level)),
             _ => None,
         }
     }

@@ -171,6 +171,11 @@ pub fn normal(z: f64) -> f64 {
     0.5 * libm::erfc(-z / SQRT_2)
 }
 
+/// `Φ(ln(x/θ) / β)`: the probability by a lognormal curve of median `θ`, in the unit of the level `x`, and dispersion `β`.
+pub fn lognormal(median: f64, dispersion: f64, level: f64) -> f64 {
+    normal(libm::log(level / median) / dispersion)
+}
+
 /// From this `z` down, `φ(z) / Φ(z)` is a continued fraction: `erfc` would lose digits there, and vanish further out.
 const FAR_TAIL: f64 = -5.0;
 

@@ -5,12 +5,10 @@ use crate::commands::spectrum::beside;
 use crate::error::{Failure, at};
 use crate::number::significant;
 use crate::output;
-use crate::table::column::{OUTCOME, TRUST};
-use crate::table::open;
-use crate::text::shown;
+use crate::table::decided;
+use crate::text::{printable, shown};
+use rocking::Sweep;
 use rocking::studies::Proportion;
-use rocking::sweep::NOT_DETERMINED;
-use rocking::{Fate, Sweep};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -43,15 +41,11 @@ pub fn table(out: &Path) -> PathBuf {
 /// Probabilities from the finished table of a sweep; empty for a sweep without distributions.
 pub fn of(sweep: &Sweep, out: &Path) -> Result<Vec<Lost>, Failure> {
     let Some(samples) = sweep.samples() else { return Ok(Vec::new()) };
-    let found = open(out).map_err(at(Failure::Study, out))?;
-    let column = |name: &str| found.header.iter().position(|own| own == name);
-    let (outcome, trust) = (column(OUTCOME), column(TRUST));
+    let (_, rows) = decided(out).map_err(at(Failure::Study, out))?;
     let mut counts = vec![[0usize; 2]; sweep.len() / samples];
     let mut undecided = vec![0; counts.len()];
-    for (place, row) in found.rows.enumerate() {
-        let row = row.map_err(at(Failure::Study, out))?;
-        let cell = |column: Option<usize>| column.and_then(|column| row.get(column)).unwrap_or_default();
-        let fate = Fate::parse(cell(outcome)).filter(|fate| fate.is_decided() && cell(trust) != NOT_DETERMINED);
+    for (place, row) in rows.enumerate() {
+        let (fate, _) = row.map_err(at(Failure::Study, out))?;
         let Some(count) = counts.get_mut(place / samples) else { break };
         match fate {
             None => undecided[place / samples] += 1,
@@ -63,7 +57,11 @@ pub fn of(sweep: &Sweep, out: &Path) -> Result<Vec<Lost>, Failure> {
     }
     let lost = counts.into_iter().zip(undecided).enumerate().map(|(place, ([lost, runs], undecided))| {
         let settings = sweep.settings(place * samples);
-        let at = sweep.grid().iter().zip(settings).map(|(axis, setting)| (axis.key.clone(), setting.to_string()));
+        let at = sweep
+            .grid()
+            .iter()
+            .zip(settings)
+            .map(|(axis, setting)| (axis.key.clone(), printable(&setting.to_string()).into_owned()));
         Lost { at: at.collect(), found: Proportion::of(lost, runs, CONFIDENCE), undecided }
     });
     Ok(lost.collect())
@@ -75,23 +73,21 @@ pub fn write(sweep: &Sweep, lost: &[Lost], out: &Path) -> Result<String, Failure
         return Ok(String::new());
     }
     let path = table(out);
-    let failed = |error: csv::Error| Failure::File(path.clone(), error.to_string());
-    let mut rows = csv::Writer::from_writer(Vec::new());
     let keys = sweep.grid().iter().map(|axis| axis.key.as_str());
-    rows.write_record(keys.chain(["runs", "lost", "undecided", "probability", "low", "high"])).map_err(failed)?;
-    for Lost { at, found, undecided } in lost {
-        let own = [
-            found.runs.to_string(),
-            found.reached.to_string(),
-            undecided.to_string(),
-            found.probability.map_or(String::new(), |share| format!("{share:?}")),
-            format!("{:?}", found.interval[0]),
-            format!("{:?}", found.interval[1]),
-        ];
-        rows.write_record(at.iter().map(|(_, value)| value.clone()).chain(own)).map_err(failed)?;
-    }
-    let bytes = rows.into_inner().map_err(|error| failed(csv::Error::from(error.into_error())))?;
-    output::file(&path, bytes)?;
+    output::csv(&path, |rows| {
+        rows.write_record(keys.chain(["runs", "lost", "undecided", "probability", "low", "high"]))?;
+        lost.iter().try_for_each(|Lost { at, found, undecided }| {
+            let own = [
+                found.runs.to_string(),
+                found.reached.to_string(),
+                undecided.to_string(),
+                found.probability.map_or(String::new(), |share| format!("{share:?}")),
+                format!("{:?}", found.interval[0]),
+                format!("{:?}", found.interval[1]),
+            ];
+            rows.write_record(at.iter().map(|(_, value)| value.clone()).chain(own))
+        })
+    })?;
     let mut report: String = lost.iter().take(PRINTED).map(|lost| lost.line()).collect();
     if lost.len() > PRINTED {
         let _ = writeln!(report, "and {} more combinations", lost.len() - PRINTED);

@@ -1,6 +1,6 @@
 //! `rocking record FILE`: description and measures of a record file. The record is trimmed, scaled, written and drawn if asked for.
 
-use crate::arguments;
+use crate::arguments::{self, Target};
 use crate::commands::inputs;
 use crate::commands::plot::write;
 use crate::error::{Failure, with_dashes};
@@ -93,9 +93,9 @@ fn scaled(
     if let Some(peak) = arguments.pga {
         record = record.scaled_to_peak(peak * gravity).map_err(refused)?;
     }
-    let Some((mut intensity, size)) = arguments.scale_to else { return Ok(record) };
+    let Some(Target { mut intensity, names_damping, size }) = arguments.scale_to else { return Ok(record) };
     if let Measure::Sa { damping: own, .. } = &mut intensity.measure
-        && *own == DEFAULT_DAMPING
+        && !names_damping
     {
         *own = damping;
     }

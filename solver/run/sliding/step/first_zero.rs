@@ -253,8 +253,10 @@ impl<O: Output> Step<'_, '_, O> {
             return if end < limit { Some(0.0) } else { self.falls_from_zero(value, noise, clear, limit) };
         }
         let two = value(self, (2.0 * near).min(end));
-        let order = libm::log2((two / one).abs()).round().clamp(1.0, 3.0) as i32;
-        first_crossing(|s| value(self, s.max(near)) / (s.max(near) / near).powi(order), one, end)
+        let order = libm::log2((two / one).abs()).round().clamp(1.0, 3.0) as usize;
+        // Not `powi`: its rounding is not the same on every machine.
+        let power = |x: f64| [x, x * x, x * (x * x)][order - 1];
+        first_crossing(|s| value(self, s.max(near)) / power(s.max(near) / near), one, end)
     }
 
     /// The first place up to `limit` at which a guard that has not left zero upwards is below zero by more than `clear`; where it is above `noise` half-way to
