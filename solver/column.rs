@@ -459,11 +459,6 @@ impl Column {
         self.stack(0).slenderness()
     }
 
-    /// Moment of inertia `I_O [kg m²]` of the whole column as one body about a corner of its base.
-    pub fn inertia_about_corner(&self) -> f64 {
-        self.stack(0).inertia
-    }
-
     /// Housner's ratio `ω⁺/ω⁻` of the whole column as one body; see [`Stack::housner_ratio`].
     pub fn housner_ratio(&self) -> f64 {
         self.stack(0).housner_ratio()

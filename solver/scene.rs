@@ -521,9 +521,7 @@ impl Scene {
     fn check_excitation(&self, faults: &mut Faults) {
         let components = [("horizontal", &self.excitation.horizontal), ("vertical", &self.excitation.vertical)];
         for (component, motion) in components {
-            // The first one is found without allocation: scenes of a sweep are checked a million times.
-            let Some(motion) = motion.as_ref().filter(|motion| motion.invalid(LARGEST).is_some()) else { continue };
-            for (name, value) in motion.all_invalid(LARGEST) {
+            for (name, value) in motion.as_ref().map_or(Vec::new(), |motion| motion.invalid(LARGEST)) {
                 let remedy = match name.rsplit('.').next() {
                     Some("gamma") => "give a number up to 1e6, above 0 (of mavroeidis-papageorgiou, above 1)",
                     Some("file") => "its largest acceleration is that; scale it to 1e6 m/s² at most",

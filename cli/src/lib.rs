@@ -24,6 +24,7 @@ use rocking::run_folder::Results;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
+pub use plot::Figure;
 pub use report::page;
 
 /// Carries out the command that the arguments of this process name. Returns the status with which the process should exit.
@@ -66,19 +67,7 @@ fn execute(arguments: Arguments) -> u8 {
     }
 }
 
-/// A figure of a run.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Picture {
-    /// Name, e.g. `time-history`.
-    pub name: &'static str,
-    /// Content in a sentence.
-    pub caption: String,
-    /// The document.
-    pub svg: String,
-}
-
 /// The figures of a run, in the order in which they are read.
-pub fn figures(results: &Results) -> Vec<Picture> {
-    let pictures = plot::figures(results, &plot::Paper::default()).into_iter();
-    pictures.map(|plot::Figure { name, caption, svg, .. }| Picture { name, caption, svg }).collect()
+pub fn figures(results: &Results) -> Vec<Figure> {
+    plot::figures(results, &plot::Paper::default())
 }

@@ -12,6 +12,16 @@ pub fn file(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Failure> {
     put_in_place(file, place).map_err(at(Failure::File, path))
 }
 
+/// As [`file`], a small table as CSV.
+pub fn csv(
+    path: &Path,
+    write: impl FnOnce(&mut csv::Writer<Vec<u8>>) -> Result<(), csv::Error>,
+) -> Result<(), Failure> {
+    let mut rows = csv::Writer::from_writer(Vec::new());
+    write(&mut rows).map_err(at(Failure::File, path))?;
+    file(path, rows.into_inner().map_err(|error| at(Failure::File, path)(error.into_error()))?)
+}
+
 /// Removes what an earlier run has left beside its table, unless it is one of the inputs.
 pub fn remove(path: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
     if inputs.iter().any(|input| are_same(input, path)) {

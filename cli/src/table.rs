@@ -10,8 +10,10 @@ pub mod parquet;
 
 use crate::error::Failure;
 use crate::files::{LARGEST_TABLE, check};
-use column::{OUTCOME, Rows};
+use column::{OUTCOME, Rows, TRUST};
 use csv::StringRecord;
+use rocking::Fate;
+use rocking::sweep::NOT_DETERMINED;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
@@ -79,6 +81,21 @@ pub fn open(path: &Path) -> std::io::Result<Rows> {
         #[cfg(feature = "parquet")]
         Format::Parquet => parquet::rows(path),
     }
+}
+
+/// A row of a finished table with the fate of its column; no fate where the run has no answer, or one that its companions do not determine.
+pub type Decided = (Option<Fate>, StringRecord);
+
+/// Opens a finished table: its header, and its rows with their fates.
+pub fn decided(path: &Path) -> std::io::Result<(StringRecord, impl Iterator<Item = std::io::Result<Decided>>)> {
+    let Rows { header, rows } = open(path)?;
+    let [outcome, trust] = [OUTCOME, TRUST].map(|name| header.iter().position(|own| own == name));
+    let decided = move |row: StringRecord| {
+        let cell = |column: Option<usize>| column.and_then(|column| row.get(column)).unwrap_or_default();
+        let fate = Fate::parse(cell(outcome)).filter(|fate| fate.is_decided() && cell(trust) != NOT_DETERMINED);
+        (fate, row)
+    };
+    Ok((header, rows.map(move |row| row.map(decided))))
 }
 
 /// Longest first line of a table `[B]`: a file without line breaks is none.

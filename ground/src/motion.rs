@@ -13,7 +13,7 @@ use crate::record::Record;
 use crate::spans::{Span, Spans, overlay};
 use serde::ser::SerializeStruct;
 use serde::{Deserialize, Serialize, Serializer};
-use smallvec::smallvec;
+use smallvec::{SmallVec, smallvec};
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 
 /// Ground acceleration of one component.
@@ -263,86 +263,64 @@ impl Motion {
         }
     }
 
-    /// Name and value of the first parameter that is not finite, exceeds `largest` in magnitude, or is not above its lower bound. It is `None` if
-    /// all parameters are valid. Parameters are in SI units. The peak of a record has the name `file`; the largest acceleration `velocity · omega` of a
-    /// pulse of velocity has the name `velocity`. In a sum the name is `term[k].name`, with `k` from 1.
-    pub fn invalid(&self, largest: f64) -> Option<(String, f64)> {
-        if let Motion::Sum { terms } = self {
-            let term = |(index, term): (usize, &Motion)| {
-                term.invalid(largest).map(|(name, value)| (format!("term[{}].{name}", index + 1), value))
-            };
-            return terms.iter().enumerate().find_map(term);
-        }
-        let is_bad = |parameter: &&Parameter| is_invalid(parameter, largest);
-        let first = |parts: [&[Parameter]; 2]| parts.into_iter().flatten().find(is_bad).copied();
-        let (name, value, _) = self.with_parameters(first)?;
-        Some((name.into(), value))
-    }
-
-    /// Names and values of all parameters that [`Motion::invalid`] refuses.
-    pub fn all_invalid(&self, largest: f64) -> Vec<(String, f64)> {
+    /// Names and values of the parameters that are not finite, exceed `largest` in magnitude, or are not above their lower bounds; empty if all are valid.
+    /// Parameters are in SI units. The peak of a record has the name `file`; the largest acceleration `velocity · omega` of a pulse of velocity has the
+    /// name `velocity`. In a sum the name is `term[k].name`, with `k` from 1.
+    pub fn invalid(&self, largest: f64) -> Vec<(String, f64)> {
         if let Motion::Sum { terms } = self {
             let of_term = |(index, term): (usize, &Motion)| {
                 let named = move |(name, value)| (format!("term[{}].{name}", index + 1), value);
-                term.all_invalid(largest).into_iter().map(named)
+                term.invalid(largest).into_iter().map(named)
             };
             return terms.iter().enumerate().flat_map(of_term).collect();
         }
-        self.with_parameters(|parts| {
-            let bad = parts.into_iter().flatten().filter(|parameter| is_invalid(parameter, largest));
-            bad.map(|(name, value, _)| (name.to_string(), *value)).collect()
-        })
+        let is_invalid = |(_, value, above): &Parameter| value.is_nan() || value.abs() > largest || value <= above;
+        let named = |(name, value, _): Parameter| (name.to_string(), value);
+        self.parameters().into_iter().filter(is_invalid).map(named).collect()
     }
 
-    /// Calls a function with all parameters and returns its result. The parameters are in two slices so that nothing is allocated: scenes of a sweep are
-    /// checked a million times.
-    fn with_parameters<R>(&self, of: impl FnOnce([&[Parameter]; 2]) -> R) -> R {
+    /// All parameters; none of a sum.
+    fn parameters(&self) -> SmallVec<[Parameter; 6]> {
         const ANY: f64 = f64::NEG_INFINITY;
-        let wave = |amplitude: f64, omega: f64, start: f64| {
-            [("amplitude", amplitude, ANY), ("omega", omega, 0.0), ("start", start, ANY)]
-        };
-        let lasting = |amplitude: f64, start: f64, duration: f64| {
-            [("amplitude", amplitude, ANY), ("start", start, ANY), ("duration", duration, 0.0)]
+        let with = |first: &[Parameter], others: &[Parameter]| first.iter().chain(others).copied().collect();
+        let wave = |amplitude: f64, omega: f64, start: f64, others: &[Parameter]| {
+            with(&[("amplitude", amplitude, ANY), ("omega", omega, 0.0), ("start", start, ANY)], others)
         };
         // The acceleration of a pulse of velocity has its amplitude at the crest.
-        let envelope = |velocity: f64, omega: f64, start: f64| {
-            [
-                ("velocity", velocity, ANY),
-                ("omega", omega, 0.0),
-                ("start", start, ANY),
-                ("velocity", velocity * omega, ANY),
-            ]
+        let envelope = |velocity: f64, omega: f64, start: f64, others: &[Parameter]| {
+            let crest = ("velocity", velocity * omega, ANY);
+            with(&[("velocity", velocity, ANY), ("omega", omega, 0.0), ("start", start, ANY), crest], others)
         };
         match *self {
             Motion::SinePulse { amplitude, omega, start }
             | Motion::CosinePulse { amplitude, omega, start }
             | Motion::HalfSine { amplitude, omega, start }
             | Motion::Ricker { amplitude, omega, start }
-            | Motion::AntisymmetricRicker { amplitude, omega, start } => of([&wave(amplitude, omega, start), &[]]),
+            | Motion::AntisymmetricRicker { amplitude, omega, start } => wave(amplitude, omega, start, &[]),
             Motion::TypeC { amplitude, omega, start, cycles } => {
-                of([&wave(amplitude, omega, start), &[("cycles", f64::from(cycles), 0.0)]])
+                wave(amplitude, omega, start, &[("cycles", f64::from(cycles), 0.0)])
             }
             Motion::Harmonic { amplitude, omega, start, phase } => {
-                of([&wave(amplitude, omega, start), &[("phase", phase, ANY)]])
+                wave(amplitude, omega, start, &[("phase", phase, ANY)])
             }
             Motion::SineBurst { amplitude, omega, start, phase, duration } => {
-                of([&wave(amplitude, omega, start), &[("phase", phase, ANY), ("duration", duration, 0.0)]])
+                wave(amplitude, omega, start, &[("phase", phase, ANY), ("duration", duration, 0.0)])
             }
             Motion::MavroeidisPapageorgiou { velocity, omega, start, phase, gamma } => {
-                of([&envelope(velocity, omega, start), &[("phase", phase, ANY), ("gamma", gamma, 1.0)]])
+                envelope(velocity, omega, start, &[("phase", phase, ANY), ("gamma", gamma, 1.0)])
             }
             Motion::Gabor { velocity, omega, start, phase, gamma } => {
-                of([&envelope(velocity, omega, start), &[("phase", phase, ANY), ("gamma", gamma, 0.0)]])
+                envelope(velocity, omega, start, &[("phase", phase, ANY), ("gamma", gamma, 0.0)])
             }
             Motion::Rectangular { amplitude, start, duration }
             | Motion::DoubleRectangular { amplitude, start, duration } => {
-                of([&lasting(amplitude, start, duration), &[]])
+                with(&[("amplitude", amplitude, ANY), ("start", start, ANY), ("duration", duration, 0.0)], &[])
             }
-            Motion::Sum { .. } => of([&[], &[]]),
-            Motion::Record(ref record) => of([
-                &[("file", record.peak(), ANY), ("start", record.start(), ANY), ("dt", record.dt(), SHORTEST_INTERVAL)],
-                &[],
-            ]),
+            Motion::Sum { .. } => SmallVec::new(),
+            Motion::Record(ref record) => {
+                let dt = ("dt", record.dt(), SHORTEST_INTERVAL);
+                with(&[("file", record.peak(), ANY), ("start", record.start(), ANY), dt], &[])
+            }
         }
     }
 }
@@ -358,11 +336,6 @@ fn phase_of_type_c(cycles: u32) -> f64 {
     let turns = (f64::from(cycles) + 0.5) * PI;
     // The slope of the right side in φ is about 1/turns²: each round reduces the error by more than ten at n = 1, by more beyond.
     (0..30).fold(0.0, |phase, _| libm::atan(1.0 / (turns - phase)))
-}
-
-/// Whether a parameter is not finite, exceeds `largest` in magnitude, or is not above its lower bound.
-fn is_invalid((_, value, above): &Parameter, largest: f64) -> bool {
-    value.is_nan() || value.abs() > largest || value <= above
 }
 
 #[cfg(test)]
@@ -439,8 +412,8 @@ pub(crate) mod tests {
         let invalid = |gamma: f64| {
             Motion::MavroeidisPapageorgiou { velocity: 0.5, omega: 4.0, start: 0.0, phase: 0.0, gamma }.invalid(1e6)
         };
-        assert_eq!(invalid(0.9), Some(("gamma".into(), 0.9)));
-        assert_eq!(invalid(1.1), None);
+        assert_eq!(invalid(0.9), [("gamma".into(), 0.9)]);
+        assert_eq!(invalid(1.1), []);
     }
 
     #[test]
@@ -467,12 +440,12 @@ pub(crate) mod tests {
         let starts: Vec<f64> = sum.pieces().iter().map(|span| span.start).collect();
         assert_eq!(starts, [0.25, 0.7, 0.75, 1.0, 1.25, 1.75, 0.7 + TAU / 4.0]);
         assert_eq!(sum.end(), None);
-        assert_eq!(sum.invalid(1e6), None);
+        assert_eq!(sum.invalid(1e6), []);
         let bad =
             Motion::Sum { terms: vec![terms[0].clone(), Motion::HalfSine { amplitude: 1.0, omega: 0.0, start: 0.0 }] };
-        assert_eq!(bad.invalid(1e6), Some(("term[2].omega".into(), 0.0)));
+        assert_eq!(bad.invalid(1e6), [("term[2].omega".into(), 0.0)]);
         let gabor = |velocity| Motion::Gabor { velocity, omega: 2e3, start: 0.0, phase: 0.0, gamma: 2.0 };
-        assert_eq!(gabor(100.0).invalid(1e6), None);
-        assert_eq!(gabor(1e3).invalid(1e6), Some(("velocity".into(), 2e6)), "the acceleration is out of range");
+        assert_eq!(gabor(100.0).invalid(1e6), []);
+        assert_eq!(gabor(1e3).invalid(1e6), [("velocity".into(), 2e6)], "the acceleration is out of range");
     }
 }

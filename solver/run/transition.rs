@@ -7,6 +7,7 @@ use super::state::{ContactMemory, State};
 use super::stretch::Ended;
 use crate::contact::{self, Decision, Gaps, ImpactLaw, SingularMass};
 use crate::mechanics::dynamics::Ground;
+use crate::mechanics::kinematics::lower;
 use crate::numerics::per_block::{PerBlock, Size, for_size};
 use crate::response::EventKind;
 use rocking_codegen::pattern::{Interface, Pattern};
@@ -284,12 +285,11 @@ fn snap(size: impl Size, states: &[Interface], theta: &mut [f64], omega: &mut [f
         [is_closed || is_gapless, is_closed || (is_gapless && rates.is_rounding(interface))]
     });
     for (interface, &[joins_angles, joins_rates]) in joined.iter().enumerate() {
-        let below = interface.checked_sub(1);
         if joins_angles {
-            theta[interface] = below.map_or(0.0, |below| theta[below]);
+            theta[interface] = lower(theta, interface);
         }
         if joins_rates {
-            omega[interface] = below.map_or(0.0, |below| omega[below]);
+            omega[interface] = lower(omega, interface);
         }
     }
 }

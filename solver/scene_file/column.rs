@@ -121,14 +121,13 @@ fn blocks(root: &mut Table, derived: &mut Vec<Derived>) -> Result<Vec<(Block, Lo
             Ok(blocks)
         }
         (None, Some(mut column)) => {
-            let (count, place) = match column.number("blocks")? {
-                Some(found) => found,
-                None => return Err(column.missing("blocks", "say of how many blocks the column is made")),
+            let Some(count) = column.number("blocks")? else {
+                return Err(column.missing("blocks", "say of how many blocks the column is made"));
             };
             if !(count.fract() == 0.0 && (1.0..=MOST_BLOCKS as f64).contains(&count)) {
                 let remedy = format!("give a whole number from 1 to {MOST_BLOCKS}");
                 let problem = format!("{count} is no number of blocks");
-                return Err(Wrong { place, key: "column.blocks".into(), problem, remedy, cause: Cause::Value });
+                return Err(column.wrong("blocks", problem, &remedy));
             }
             cut(&mut column, count as usize, derived)
         }
@@ -190,7 +189,7 @@ impl Density {
 fn half(table: &mut Table, keys: &[&'static str]) -> Result<Option<(&'static str, f64)>, Wrong> {
     let mut found: Option<(&'static str, f64)> = None;
     for key in keys {
-        let Some((value, _)) = table.number(key)? else { continue };
+        let Some(value) = table.number(key)? else { continue };
         if let Some((other, _)) = found {
             return Err(table.clash(key, other));
         }
@@ -209,7 +208,7 @@ fn half(table: &mut Table, keys: &[&'static str]) -> Result<Option<(&'static str
 
 /// Shape, sizes and material.
 fn sizes(table: &mut Table) -> Result<Sizes, Wrong> {
-    let shape = table.text("shape")?.map(|(shape, _)| shape);
+    let shape = table.text("shape")?;
     let both = half(table, &["half_width", "width", "diameter"])?;
     let bottom = half(table, &["bottom_half_width", "bottom_width", "bottom_diameter"])?;
     let top = half(table, &["top_half_width", "top_width", "top_diameter"])?;
@@ -255,7 +254,7 @@ fn sizes(table: &mut Table) -> Result<Sizes, Wrong> {
 
 /// A block of `[[block]]`.
 fn block(table: &mut Table, derived: &mut Vec<Derived>) -> Result<(Block, Look), Wrong> {
-    let name = table.text("name")?.map(|(name, _)| name).unwrap_or_default();
+    let name = table.text("name")?.unwrap_or_default();
     let Sizes { shape, half_widths, half_height, amount } = sizes(table)?;
     let mut derive = |key: String, value: f64, unit: &'static str, from: String| {
         derived.push(Derived { key, value, unit, from });

@@ -115,7 +115,7 @@ impl Reader<'_> {
 
     fn motion(&self, table: &mut Table, column: &Column) -> Result<Motion, Fault> {
         check_uplift(table, column)?;
-        let Some((kind, _)) = table.text("kind")? else {
+        let Some(kind) = table.text("kind")? else {
             return Err(table.missing("kind", &format!("choose one of {}", KINDS.join(", "))).into());
         };
         match kind.as_str() {
@@ -156,7 +156,7 @@ impl Reader<'_> {
                 .into());
         }
         let (record, key) = match (table.text("file")?, accel) {
-            (Some((name, _)), None) => (self.record_file(table, "file", &name, &options)?, "file"),
+            (Some(name), None) => (self.record_file(table, "file", &name, &options)?, "file"),
             (None, Some(accel)) => {
                 let Some(dt) = dt else { return Err(table.missing("dt", "give the sampling interval in s").into()) };
                 let unit = units.unwrap_or(AccelerationUnit::MetrePerSecondSquared);
@@ -174,7 +174,7 @@ impl Reader<'_> {
             (Some(_), Some(target)) => {
                 return Err(table.clash(target.key, "scale").into());
             }
-            (Some((factor, _)), None) => record
+            (Some(factor), None) => record
                 .scaled(factor)
                 .map_err(|error| table.wrong("scale", error.to_string(), "give a smaller factor"))?,
             (None, Some(target)) => record
@@ -217,7 +217,7 @@ impl Reader<'_> {
 pub(crate) fn text_options(table: &mut Table, gravity: f64) -> Result<TextOptions, Wrong> {
     let units = match table.text("units")? {
         None => None,
-        Some((name, _)) => Some(
+        Some(name) => Some(
             AccelerationUnit::parse(&name)
                 .ok_or_else(|| table.no_such("units", "unit", &name, &AccelerationUnit::NAMES))?,
         ),
@@ -250,7 +250,7 @@ pub(super) fn target(table: &mut Table, column: &Column) -> Result<Option<Target
     let sa = spectrum(table)?;
     let mut found: Option<Target> = None;
     for key in NAMES {
-        let Some((value, _)) = table.number(key)? else { continue };
+        let Some(value) = table.number(key)? else { continue };
         if let Some(first) = &found {
             return Err(table.clash(key, first.key));
         }
@@ -269,8 +269,8 @@ pub(crate) fn spectrum(table: &mut Table) -> Result<Option<[f64; 2]>, Wrong> {
     let period = table.positive("sa_period")?;
     let damping = match table.number("sa_damping")? {
         None => DEFAULT_DAMPING,
-        Some((damping, _)) if (0.0..1.0).contains(&damping) => damping,
-        Some((damping, _)) => {
+        Some(damping) if (0.0..1.0).contains(&damping) => damping,
+        Some(damping) => {
             let problem = format!("{damping} is out of range");
             return Err(table.wrong(
                 "sa_damping",
@@ -286,11 +286,11 @@ pub(crate) fn spectrum(table: &mut Table) -> Result<Option<[f64; 2]>, Wrong> {
 }
 
 pub(super) fn start(table: &mut Table) -> Result<f64, Wrong> {
-    Ok(table.number("start")?.map_or(0.0, |(value, _)| value))
+    Ok(table.number("start")?.unwrap_or(0.0))
 }
 
 fn phase(table: &mut Table) -> Result<f64, Wrong> {
-    Ok(table.number("phase")?.map_or(0.0, |(value, _)| value))
+    Ok(table.number("phase")?.unwrap_or(0.0))
 }
 
 fn amplitude(table: &mut Table, scales: Scales) -> Result<f64, Wrong> {

@@ -109,8 +109,8 @@ impl Reader<'_> {
     }
 
     fn scene(&self, root: &mut Table, derived: &mut Vec<Derived>) -> Result<Scene, Fault> {
-        let title = root.text("title")?.map(|(title, _)| title).unwrap_or_default();
-        let gravity = root.number("gravity")?.map_or(crate::DEFAULT_GRAVITY, |(value, _)| value);
+        let title = root.text("title")?.unwrap_or_default();
+        let gravity = root.number("gravity")?.unwrap_or(crate::DEFAULT_GRAVITY);
         if gravity <= 0.0 {
             let wrong =
                 root.wrong("gravity", format!("{gravity} is out of range"), "give m/s² above zero, or leave it out");
@@ -140,7 +140,7 @@ fn friction(root: &mut Table) -> Result<Option<Friction>, Wrong> {
             Cause::Key => Wrong { remedy: remedy.into(), ..wrong },
             _ => wrong,
         })?;
-        return Ok(number.map(|(value, _)| Friction::uniform(value)));
+        return Ok(number.map(Friction::uniform));
     }
     let Some(mut table) = root.table("friction")? else { return Ok(None) };
     let fixed = table.number_or_numbers("static")?;
@@ -184,7 +184,7 @@ fn initial(root: &mut Table, mut column: Column) -> Result<(Column, Initial), Wr
 
 fn restitution(root: &mut Table) -> Result<Restitution, Wrong> {
     let Some(mut table) = root.table("restitution")? else { return Ok(Restitution::Plastic) };
-    let law = table.text("law")?.map(|(law, _)| law);
+    let law = table.text("law")?;
     if let Some(law) = law.as_ref().filter(|law| *law != "plastic") {
         let problem = format!("there is no law `{law}`");
         return Err(table.wrong("law", problem, "write \"plastic\", or give `eta` or `factors` without a law"));
@@ -195,7 +195,7 @@ fn restitution(root: &mut Table) -> Result<Restitution, Wrong> {
         (Some(_), Some(_), _) => return Err(table.clash("law", "eta")),
         (Some(_), _, Some(_)) => return Err(table.clash("law", "factors")),
         (None, Some(_), Some(_)) => return Err(table.clash("factors", "eta")),
-        (None, Some((eta, _)), None) => Restitution::Eta(eta),
+        (None, Some(eta), None) => Restitution::Eta(eta),
         (None, None, Some(factors)) => Restitution::Factors(factors),
         (_, None, None) => Restitution::Plastic,
     };
@@ -210,7 +210,7 @@ const GIVE_AN_END: &str = "the ground motion has no end: give the end of the run
 /// stays as it is and the result is `true`: the motion is refused later for its own numbers.
 pub(super) fn end_after_free_swing(scene: &mut Scene) -> bool {
     let motions = [&scene.excitation.horizontal, &scene.excitation.vertical];
-    if motions.into_iter().flatten().any(|motion| motion.invalid(LARGEST).is_some()) {
+    if motions.into_iter().flatten().any(|motion| !motion.invalid(LARGEST).is_empty()) {
         return true;
     }
     let end = scene.end_of_free_swing();
@@ -251,11 +251,11 @@ fn solver(root: &mut Table, scene: &mut Scene) -> Result<bool, Wrong> {
         ("stick_angle", &mut options.stick_angle),
         ("overturn_angle", &mut options.overturn_angle),
     ] {
-        if let Some((value, _)) = table.number(key)? {
+        if let Some(value) = table.number(key)? {
             *option = value;
         }
     }
-    if let Some((name, _)) = table.text("method")? {
+    if let Some(name) = table.text("method")? {
         options.method = Method::parse(&name).ok_or_else(|| {
             table.no_such(
                 "method",
@@ -275,7 +275,7 @@ const DEFAULT_OUTPUT_DT: f64 = 0.01;
 /// `[output]`: the rows of `response.csv` and their columns.
 fn output(root: &mut Table, scene: &mut Scene) -> Result<(), Wrong> {
     if let Some(mut table) = root.table("output")? {
-        scene.output_dt = table.number("dt")?.map(|(value, _)| value);
+        scene.output_dt = table.number("dt")?;
         if let Some(times) = table.numbers("times")? {
             if scene.output_dt.is_some() {
                 return Err(table.clash("times", "dt"));

@@ -142,8 +142,8 @@ impl Reader<'_> {
         check_uplift(table, column)?;
         let options = text_options(table, column.gravity())?;
         let remedy = "give folder and name of the record without its component, e.g. \"records/RSN1045\"";
-        let name = table.text("record")?.ok_or_else(|| table.missing("record", remedy))?.0;
-        let requested = table.text("component")?.map_or_else(|| "H1".into(), |(component, _)| component);
+        let name = table.text("record")?.ok_or_else(|| table.missing("record", remedy))?;
+        let requested = table.text("component")?.unwrap_or_else(|| "H1".into());
         let with_vertical = table.flag("vertical")?.unwrap_or(false);
         let refuse = |key: &str, problem: String| Fault::of_record(table, key, self.beside(&name), problem);
         let components = self.components(table, &name, &options)?;
@@ -178,7 +178,7 @@ impl Reader<'_> {
         let target = target(table, column)?;
         let factor = match (table.number("scale")?, target) {
             (Some(_), Some(target)) => return Err(table.clash(target.key, "scale").into()),
-            (Some((factor, _)), None) => Some(factor),
+            (Some(factor), None) => Some(factor),
             (None, Some(target)) => {
                 let factor = horizontal.record.factor_to(target.measure, target.size, column.gravity());
                 let wrong =

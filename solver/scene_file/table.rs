@@ -271,25 +271,21 @@ impl Table {
     }
 
     /// Text.
-    pub fn text(&mut self, key: &'static str) -> Result<Option<(String, Place)>, Wrong> {
+    pub fn text(&mut self, key: &'static str) -> Result<Option<String>, Wrong> {
         self.ask(key);
         match self.entry(key) {
             None => Ok(None),
-            Some(Entry { value: Value::Text(text), value_place, .. }) => {
-                Ok(Some((text.to_string(), value_place.clone())))
-            }
+            Some(Entry { value: Value::Text(text), .. }) => Ok(Some(text.to_string())),
             Some(entry) => Err(self.expected(key, &entry.value, "text in quotes")),
         }
     }
 
     /// A finite number.
-    pub fn number(&mut self, key: &'static str) -> Result<Option<(f64, Place)>, Wrong> {
+    pub fn number(&mut self, key: &'static str) -> Result<Option<f64>, Wrong> {
         self.ask(key);
         match self.entry(key) {
             None => Ok(None),
-            Some(Entry { value: Value::Number(value), value_place, .. }) if value.is_finite() => {
-                Ok(Some((*value, value_place.clone())))
-            }
+            Some(Entry { value: Value::Number(value), .. }) if value.is_finite() => Ok(Some(*value)),
             Some(Entry { value: Value::Number(value), .. }) => {
                 Err(self.wrong(key, format!("{value} is not finite"), "give a finite number"))
             }
@@ -321,10 +317,10 @@ impl Table {
     /// A finite number above zero.
     pub fn positive(&mut self, key: &'static str) -> Result<Option<f64>, Wrong> {
         match self.number(key)? {
-            Some((value, _)) if value <= 0.0 => {
+            Some(value) if value <= 0.0 => {
                 Err(self.wrong(key, format!("{value} is out of range"), "give a finite number above zero"))
             }
-            found => Ok(found.map(|(value, _)| value)),
+            found => Ok(found),
         }
     }
 
@@ -360,7 +356,7 @@ impl Table {
     pub fn number_or_numbers(&mut self, key: &'static str) -> Result<Option<Vec<f64>>, Wrong> {
         match self.entry(key).map(|entry| &entry.value) {
             None | Some(Value::Array(_)) => self.numbers(key),
-            Some(Value::Number(_)) => Ok(self.number(key)?.map(|(value, _)| vec![value])),
+            Some(Value::Number(_)) => Ok(self.number(key)?.map(|value| vec![value])),
             Some(other) => Err(self.expected(key, other, "a number, or a list of numbers")),
         }
     }
@@ -368,9 +364,9 @@ impl Table {
     /// A whole number from `least` on.
     pub fn whole(&mut self, key: &'static str, least: u32) -> Result<Option<u64>, Wrong> {
         match self.number(key)? {
-            Some((value, _)) if value.fract() != 0.0 || value < f64::from(least) || value > LARGEST_WHOLE => Err(self
+            Some(value) if value.fract() != 0.0 || value < f64::from(least) || value > LARGEST_WHOLE => Err(self
                 .wrong(key, format!("{value} is out of range"), &format!("give a whole number from {least} to 9e15"))),
-            found => Ok(found.map(|(value, _)| value as u64)),
+            found => Ok(found.map(|value| value as u64)),
         }
     }
 
@@ -389,7 +385,7 @@ impl Table {
     pub fn one_of(&mut self, keys: &[(&'static str, &dyn Fn(f64) -> f64)]) -> Result<f64, Wrong> {
         let mut found: Option<(&str, f64)> = None;
         for (key, convert) in keys {
-            let Some((value, _)) = self.number(key)? else { continue };
+            let Some(value) = self.number(key)? else { continue };
             if let Some((first, _)) = found {
                 return Err(self.clash(key, first));
             }

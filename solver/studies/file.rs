@@ -60,7 +60,7 @@ impl IdaFile {
         let scene = scene(reader, &mut root, &mut inputs)?;
         let intensity = intensity(&mut root)?;
         let levels = values(&mut root, "levels", "give a list, or { from, to, steps }")?;
-        let free_swing = root.number("free_swing")?.map_or(DEFAULT_FREE_SWING, |(value, _)| value);
+        let free_swing = root.number("free_swing")?.unwrap_or(DEFAULT_FREE_SWING);
         let is_followed = root.flag("trust")?.unwrap_or(true);
         let records = records(reader, &mut root, &scene.column)?;
         let (states, options) = fragility(&mut root, &scene)?;
@@ -89,7 +89,7 @@ fn scene(reader: &Reader, root: &mut Table, inputs: &mut Vec<PathBuf>) -> Result
         let table = root.table("scene")?.ok_or_else(|| root.missing("scene", remedy))?;
         return reader.read(table).map(|read| read.scene);
     }
-    let Some((name, _)) = root.text("scene")? else { return Err(root.missing("scene", remedy).into()) };
+    let Some(name) = root.text("scene")? else { return Err(root.missing("scene", remedy).into()) };
     let file = reader.file.parent().unwrap_or(Path::new("")).join(name);
     inputs.push(file.clone());
     Scene::from_file(&file).map_err(|error| Fault::of_scene(root, error))
@@ -98,7 +98,7 @@ fn scene(reader: &Reader, root: &mut Table, inputs: &mut Vec<PathBuf>) -> Result
 /// `measure`, with `sa_period` and `sa_damping`.
 fn intensity(root: &mut Table) -> Result<Intensity, Wrong> {
     let sa = spectrum(root)?;
-    let Some((name, _)) = root.text("measure")? else {
+    let Some(name) = root.text("measure")? else {
         return Err(root.missing("measure", &format!("choose one of {}", NAMES.join(", "))));
     };
     if !NAMES.iter().any(|known| name.eq_ignore_ascii_case(known)) {
@@ -140,10 +140,10 @@ fn records(reader: &Reader, root: &mut Table, column: &Column) -> Result<Vec<Stu
             found.push(StudyRecord { name, horizontal, vertical: None });
         }
     }
-    let component = table.text("component")?.map(|(name, _)| name);
+    let component = table.text("component")?;
     let with_vertical = table.flag("vertical")?.unwrap_or(false);
     match table.text("folder")? {
-        Some((folder, _)) => {
+        Some(folder) => {
             let choice = ComponentChoice { component: component.as_deref().unwrap_or("horizontal"), with_vertical };
             found.extend(of_folder(reader, &table, &folder, &choice, &options)?);
         }
@@ -315,12 +315,12 @@ fn fragility(root: &mut Table, scene: &Scene) -> Result<(Vec<LimitState>, Fragil
     if let Some(replicates) = table.whole("replicates", 0)? {
         options.replicates = replicates as usize;
     }
-    if let Some((confidence, _)) = table.number("confidence")? {
+    if let Some(confidence) = table.number("confidence")? {
         options.confidence = confidence;
     }
     options.check().map_err(|wrong| table.wrong(wrong.key, wrong.problem, &wrong.remedy))?;
     options.seed = table.whole("seed", 0)?.unwrap_or(options.seed);
-    if let Some((name, _)) = table.text("layout")? {
+    if let Some(name) = table.text("layout")? {
         let layout = Layout::parse(&name);
         options.layout = Some(layout.ok_or_else(|| table.no_such("layout", "layout", &name, &Layout::NAMES))?);
     }

@@ -33,7 +33,7 @@ pub(super) fn sampling(root: &mut Table) -> Result<Option<SamplingSection>, Wron
     let Some(mut table) = root.table("sampling")? else { return Ok(None) };
     let method = match table.text("method")? {
         None => SamplingMethod::default(),
-        Some((name, _)) => SamplingMethod::parse(&name)
+        Some(name) => SamplingMethod::parse(&name)
             .ok_or_else(|| table.no_such("method", "sampling method", &name, &SamplingMethod::NAMES))?,
     };
     let Some(samples) = table.whole("samples", 1)? else {
@@ -59,7 +59,7 @@ fn correlation(mut table: Table) -> Result<Correlation, Wrong> {
     let axes = <[String; 2]>::try_from(names);
     let axes = axes.map_err(|names| table.wrong("axes", format!("{} key(s) are no pair", names.len()), remedy))?;
     let remedy = "give the correlation of their normal scores, above -1 and below 1";
-    let Some((value, _)) = table.number("value")? else { return Err(table.missing("value", remedy)) };
+    let Some(value) = table.number("value")? else { return Err(table.missing("value", remedy)) };
     if !(-1.0..=1.0).contains(&value) || value.abs() == 1.0 {
         return Err(table.wrong("value", format!("{value} is out of range"), remedy));
     }
@@ -177,7 +177,7 @@ pub(super) fn distribution(table: &mut Table, kind: &'static str) -> Result<Dist
     if kind == "uniform" {
         return Distribution::uniform(a, b).map_err(|why| refused(table, why));
     }
-    let mut bound = |key: &'static str, open: f64| Ok(table.number(key)?.map_or(open, |(value, _)| value));
+    let mut bound = |key: &'static str, open: f64| Ok(table.number(key)?.unwrap_or(open));
     let bounds = [bound("min", f64::NEG_INFINITY)?, bound("max", f64::INFINITY)?];
     let made =
         if kind == "normal" { Distribution::normal(a, b, bounds) } else { Distribution::lognormal(a, b, bounds) };

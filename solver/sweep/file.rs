@@ -54,7 +54,7 @@ impl Sweep {
             (Some(_), Some(_)) => {
                 return Err(root.wrong("scene", "the base scene is given already".into(), "remove it").into());
             }
-            (None, Some((name, _))) => {
+            (None, Some(name)) => {
                 let base = file.parent().unwrap_or(Path::new("")).join(name);
                 Template::from_file(&base).map_err(|error| Fault::of_scene(&root, error))?
             }
@@ -62,12 +62,12 @@ impl Sweep {
         };
         let combine = match root.text("combine")? {
             None => Combine::Cartesian,
-            Some((name, _)) => Combine::parse(&name)
+            Some(name) => Combine::parse(&name)
                 .ok_or_else(|| root.no_such("combine", "way to combine axes", &name, &Combine::NAMES))?,
         };
         let ask = match root.text("ask")? {
             None => Ask::default(),
-            Some((name, _)) => Ask::parse(&name).ok_or_else(|| root.no_such("ask", "question", &name, &Ask::NAMES))?,
+            Some(name) => Ask::parse(&name).ok_or_else(|| root.no_such("ask", "question", &name, &Ask::NAMES))?,
         };
         let sampling = sampling(&mut root)?;
         let Some(mut table) = root.table("axes")? else {
@@ -326,14 +326,14 @@ fn axis(table: &Table, key: &str, path: &str, values: Vec<Setting>, template: &T
 /// `{ from, to, steps, scale }`. Without `steps`, there are as many values as at intervals of one, if `to - from` is a whole number.
 pub(crate) fn range(table: &mut Table) -> Result<Vec<Setting>, Wrong> {
     let mut end = |key: &'static str| match table.number(key)? {
-        Some((value, _)) => Ok(value),
+        Some(value) => Ok(value),
         None => Err(table.missing(key, "give both ends of the axis")),
     };
     let (from, to) = (end("from")?, end("to")?);
     let is_log = match table.text("scale")? {
         None => false,
-        Some((name, _)) if name == "linear" || name == "log" => name == "log",
-        Some((name, _)) => return Err(table.no_such("scale", "scale", &name, &["linear", "log"])),
+        Some(name) if name == "linear" || name == "log" => name == "log",
+        Some(name) => return Err(table.no_such("scale", "scale", &name, &["linear", "log"])),
     };
     let steps = match table.whole("steps", 1)? {
         Some(steps) => steps as f64,
@@ -382,7 +382,7 @@ fn rounded(value: f64, error: f64) -> f64 {
 
 /// Records of a folder beside the base scene, in the order of the numbers in their names. A record is named by the common part of its files' names.
 fn stations(table: &mut Table, template: &Template) -> Result<Vec<Setting>, Wrong> {
-    let Some((name, _)) = table.text("folder")? else { return Ok(Vec::new()) };
+    let Some(name) = table.text("folder")? else { return Ok(Vec::new()) };
     let path = template.beside(&name);
     let records = records_of(&path).map_err(|error| no_folder(table, &path, &error))?;
     let named = |(record, _): (String, _)| Setting::Text(Path::new(&name).join(record).to_string_lossy().into_owned());
@@ -395,7 +395,7 @@ fn no_folder(table: &Table, path: &Path, error: &std::io::Error) -> Wrong {
 
 /// The files of a folder beside the base scene ([`files_in`]), as values of a key.
 fn files(table: &mut Table, key: &str, template: &Template) -> Result<Vec<Setting>, Wrong> {
-    let Some((name, _)) = table.text("folder")? else { return Ok(Vec::new()) };
+    let Some(name) = table.text("folder")? else { return Ok(Vec::new()) };
     let path = template.beside(&name);
     let files = files_in(&path).map_err(|error| no_folder(table, &path, &error))?;
     let (other, other_name) = match key.contains("vertical") {

@@ -4,12 +4,10 @@ use crate::commands::spectrum::beside;
 use crate::error::{Failure, at};
 use crate::output;
 use crate::plot::spectrum::LEAST_RECORDS;
-use crate::table::column::{OUTCOME, TRUST};
-use crate::table::open;
+use crate::table::decided;
 use crate::text::{printable, shown};
-use rocking::Fate;
 use rocking::studies::{FRACTILES, fractile};
-use rocking::sweep::{Combine, NOT_DETERMINED, Sweep, is_of_records};
+use rocking::sweep::{Combine, Sweep, is_of_records};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -46,18 +44,14 @@ pub fn has(sweep: &Sweep) -> bool {
 
 /// Writes the fractiles of the finished table of a sweep; returns what is printed.
 pub fn write(sweep: &Sweep, out: &Path) -> Result<String, Failure> {
-    let found = open(out).map_err(at(Failure::Study, out))?;
-    let column = |name: &str| found.header.iter().position(|own| own == name);
-    let (outcome, trust, first_peak) = (column(OUTCOME), column(TRUST), column("peak_1"));
-    let is_peak = |(place, name): &(usize, &str)| *name == format!("peak_{}", place + 1);
-    let blocks = first_peak.map_or(0, |first| found.header.iter().skip(first).enumerate().take_while(is_peak).count());
+    let (header, rows) = decided(out).map_err(at(Failure::Study, out))?;
+    let is_peak = |name: &str| name.strip_prefix("peak_").is_some_and(|block| block.parse::<usize>().is_ok());
+    let peaks: Vec<usize> = (0..header.len()).filter(|column| is_peak(&header[*column])).collect();
     let mut groups: Vec<Group> = Vec::new();
     let mut places: HashMap<Vec<String>, usize> = HashMap::new();
-    for (index, row) in found.rows.enumerate() {
-        let row = row.map_err(at(Failure::Study, out))?;
-        let cell = |column: Option<usize>| column.and_then(|column| row.get(column)).unwrap_or_default();
-        let fate = Fate::parse(cell(outcome)).filter(|fate| fate.is_decided() && cell(trust) != NOT_DETERMINED);
-        let peaks = (0..blocks).filter_map(|block| cell(first_peak.map(|first| first + block)).parse::<f64>().ok());
+    for (index, row) in rows.enumerate() {
+        let (fate, row) = row.map_err(at(Failure::Study, out))?;
+        let peaks = peaks.iter().filter_map(|column| row.get(*column)?.parse::<f64>().ok());
         let at = others(sweep, index);
         let place = *places.entry(at.clone()).or_insert(groups.len());
         if place == groups.len() {
@@ -70,22 +64,20 @@ pub fn write(sweep: &Sweep, out: &Path) -> Result<String, Failure> {
         }
     }
     let path = table(out);
-    let failed = |error: csv::Error| Failure::File(path.clone(), error.to_string());
-    let mut rows = csv::Writer::from_writer(Vec::new());
     let names = FRACTILES.map(|share| format!("peak_{:.0}", 100.0 * share));
     let keys = sweep.axes.iter().map(|axis| axis.key.clone()).filter(|key| !is_of_records(key));
-    rows.write_record(keys.chain(["runs", "lost", "undecided"].map(String::from)).chain(names)).map_err(failed)?;
-    for Group { at, undecided, demands } in &groups {
-        let lost = demands.iter().filter(|demand| demand.is_infinite()).count();
-        let counts = [demands.len(), lost, *undecided].map(|count| count.to_string());
-        let fractiles = FRACTILES.map(|share| match demands.is_empty() {
-            true => String::new(),
-            false => format!("{:?}", fractile(demands, share)),
-        });
-        rows.write_record(at.iter().cloned().chain(counts).chain(fractiles)).map_err(failed)?;
-    }
-    let bytes = rows.into_inner().map_err(|error| failed(csv::Error::from(error.into_error())))?;
-    output::file(&path, bytes)?;
+    output::csv(&path, |rows| {
+        rows.write_record(keys.chain(["runs", "lost", "undecided"].map(String::from)).chain(names))?;
+        groups.iter().try_for_each(|Group { at, undecided, demands }| {
+            let lost = demands.iter().filter(|demand| demand.is_infinite()).count();
+            let counts = [demands.len(), lost, *undecided].map(|count| count.to_string());
+            let fractiles = FRACTILES.map(|share| match demands.is_empty() {
+                true => String::new(),
+                false => format!("{:?}", fractile(demands, share)),
+            });
+            rows.write_record(at.iter().cloned().chain(counts).chain(fractiles))
+        })
+    })?;
     Ok(format!("wrote 16, 50 and 84 % fractiles over the records to {}\n", shown(&path)))
 }
 

@@ -413,21 +413,18 @@ impl Conclusions {
 
     fn write_to(&self, curves: &Path) -> Result<String, Failure> {
         let shares = shares_beside(curves);
-        output::file(curves, self.curves().map_err(at(Failure::File, curves))?)?;
-        output::file(&shares, self.shares().map_err(at(Failure::File, &shares))?)?;
+        output::csv(curves, |table| self.write_curves(table))?;
+        output::csv(&shares, |table| self.write_shares(table))?;
         Ok(format!("wrote {}\nwrote {}\n", shown(curves), shown(&shares)))
     }
 
-    /// The table of curves: a row per state.
-    fn curves(&self) -> Result<Vec<u8>, csv::Error> {
-        let mut table = csv::Writer::from_writer(Vec::new());
-        self.fragilities.iter().try_for_each(|fragility| table.serialize(Curve::of(fragility, self)))?;
-        table.into_inner().map_err(|error| csv::Error::from(error.into_error()))
+    /// Writes the table of curves: a row per state.
+    fn write_curves(&self, table: &mut csv::Writer<Vec<u8>>) -> Result<(), csv::Error> {
+        self.fragilities.iter().try_for_each(|fragility| table.serialize(Curve::of(fragility, self)))
     }
 
-    /// The table of shares as CSV: the share of runs that reached each state at each level, with counts, fitted probability and band; a row per state and level.
-    fn shares(&self) -> Result<Vec<u8>, csv::Error> {
-        let mut table = csv::Writer::from_writer(Vec::new());
+    /// Writes the table of shares: the share of runs that reached each state at each level, with counts, fitted probability and band; a row per state and level.
+    fn write_shares(&self, table: &mut csv::Writer<Vec<u8>>) -> Result<(), csv::Error> {
         let measure = self.measure.as_str();
         table.write_record(["state", measure, "runs", "reached", "undecided", "share", "curve", "low", "high"])?;
         let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:?}"));
@@ -447,7 +444,7 @@ impl Conclusions {
                 ])?;
             }
         }
-        table.into_inner().map_err(|error| csv::Error::from(error.into_error()))
+        Ok(())
     }
 }
 

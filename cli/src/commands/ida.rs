@@ -64,7 +64,7 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     // What follows is made of the table, so that it is the same whether or not the study was interrupted.
     let runs = fragility::read(out, None, &[])?.runs;
     let stripes = stripes(&runs);
-    output::file(&stripes_file, stripe_table(ida, &stripes))?;
+    output::csv(&stripes_file, |table| write_stripes(table, ida, &stripes))?;
     let measure = ida.intensity().to_string();
     let conclusions = threads.install(|| Conclusions::of(&runs, &measure, states, options));
     let mut report = tally(ida, &stripes);
@@ -253,20 +253,21 @@ fn cells(ida: &Ida, run: &IdaRun, columns: usize) -> StringRecord {
     cells.into()
 }
 
-/// The table of stripes: counts of outcomes, and fractiles of the largest |θ|/α, `inf` where the column is lost.
-fn stripe_table(ida: &Ida, stripes: &[Stripe]) -> String {
+/// Writes the table of stripes: counts of outcomes, and fractiles of the largest |θ|/α, `inf` where the column is lost.
+fn write_stripes(table: &mut csv::Writer<Vec<u8>>, ida: &Ida, stripes: &[Stripe]) -> Result<(), csv::Error> {
     let fates = Fate::ALL.map(|fate| fate.name().replace('-', "_"));
     let fractiles = FRACTILES.map(|share| format!("peak_{:.0}", 100.0 * share));
-    let mut text = format!("{},runs,{},errors,{}\n", ida.intensity(), fates.join(","), fractiles.join(","));
-    for stripe in stripes {
-        let counts = stripe.fates.map(|count| count.to_string()).join(",");
+    let header = [ida.intensity().to_string(), "runs".into()].into_iter().chain(fates);
+    table.write_record(header.chain(["errors".into()]).chain(fractiles))?;
+    stripes.iter().try_for_each(|stripe| {
+        let row = [format!("{:?}", stripe.level), stripe.runs.to_string()].into_iter();
+        let counts = stripe.fates.iter().chain([&stripe.errors]).map(|count| count.to_string());
         let fractiles = match stripe.fractiles {
-            Some(values) => values.map(|value| format!("{value:?}")).join(","),
-            None => ",".repeat(FRACTILES.len() - 1),
+            Some(values) => values.map(|value| format!("{value:?}")),
+            None => FRACTILES.map(|_| String::new()),
         };
-        let _ = writeln!(text, "{:?},{},{counts},{},{fractiles}", stripe.level, stripe.runs, stripe.errors);
-    }
-    text
+        table.write_record(row.chain(counts).chain(fractiles))
+    })
 }
 
 /// Number of runs, by outcome.

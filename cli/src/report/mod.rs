@@ -21,12 +21,9 @@ pub use outcome::still_moves;
 use crate::plot;
 use crate::text::escape;
 use rocking::run_folder::Results;
-use std::fmt::Write as _;
 
 /// The page of a run.
 pub fn page(results: &Results) -> String {
-    let figures = plot::figures(results, &plot::Paper::default());
-    let figures: Vec<_> = figures.iter().map(|one| (one.name, one.caption.as_str(), one.svg.as_str())).collect();
     // A scene without a title has the name of its file.
     let file = results.scene.file.file_name().map(|name| name.to_string_lossy());
     let title = if results.title.is_empty() { file.as_deref().unwrap_or("A run of rocking") } else { &results.title };
@@ -43,7 +40,7 @@ pub fn page(results: &Results) -> String {
         ("validity", validity::details(results)),
         ("readout", readout(results)),
         ("player-notes", frames::notes(results)),
-        ("figures", section_of(&figures)),
+        ("figures", plot::figures(results, &plot::Paper::default()).iter().map(embedded).collect()),
         ("inputs", inputs::inputs(results)),
         ("provenance", provenance::provenance(results)),
         ("css", include_str!("page.css").into()),
@@ -73,37 +70,12 @@ fn readout(results: &Results) -> String {
     (1..=results.column.len()).rev().map(row).collect()
 }
 
-/// The section of the figures, each `(name, caption, svg)`. Empty if there are no figures.
-fn section_of(figures: &[(&str, &str, &str)]) -> String {
-    if figures.is_empty() {
-        return String::new();
-    }
-    let mut text = String::from(
-        "<section id=\"figures\" aria-labelledby=\"figures-title\">\n<h2 id=\"figures-title\">Figures</h2>\n",
-    );
-    for (name, caption, svg) in figures {
-        let caption = escape(caption);
-        let _ = writeln!(
-            text,
-            "<figure id=\"figure-{name}\">\n<div class=\"paper\" tabindex=\"0\" role=\"group\" aria-label=\"{caption}\">{}</div>\n\
-             <figcaption>{caption}</figcaption>\n</figure>",
-            svg
-        );
-    }
-    text.push_str("</section>");
-    text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn figures_of_any_number_are_embedded_with_their_captions() {
-        assert_eq!(section_of(&[]), "");
-        let figures = ["one", "two"].map(|name| (name, "a < b", "<svg></svg>"));
-        let text = section_of(&figures);
-        assert_eq!(text.matches("<figure ").count(), 2);
-        assert!(text.contains("<figcaption>a &lt; b</figcaption>"), "{text}");
-    }
+/// A figure of the page with its caption.
+fn embedded(figure: &plot::Figure) -> String {
+    let plot::Figure { name, svg, .. } = figure;
+    let caption = escape(&figure.caption);
+    format!(
+        "<figure id=\"figure-{name}\">\n<div class=\"paper\" tabindex=\"0\" role=\"group\" aria-label=\"{caption}\">{svg}</div>\n\
+         <figcaption>{caption}</figcaption>\n</figure>\n"
+    )
 }

@@ -147,13 +147,13 @@ fn title(joints: &Joints, record: &MovingRecord) -> String {
         record.name()
     );
     for (index, joint) in joints.0.iter().enumerate() {
-        let _ = writeln!(out, "interface {}: {}", index + 1, described(*joint, index + 1, "mu_"));
+        let _ = writeln!(out, "interface {}: {}", index + 1, described(*joint, index + 1));
     }
     out
 }
 
 /// The state of an interface in words. For a slide, the words include the direction of the virtual motion that gives the slide's equation.
-fn described(joint: Joint, number: usize, friction: &str) -> String {
+fn described(joint: Joint, number: usize) -> String {
     let Joint::Contact(interface, slip, carrier) = joint else {
         return format!(
             "in flight, apart_x_{number} and apart_y_{number} from the middle of the lower face to the middle of the upper one"
@@ -177,7 +177,7 @@ fn described(joint: Joint, number: usize, friction: &str) -> String {
     };
     let face = if carrier == Carrier::Upper { "upper" } else { "lower" };
     format!(
-        "{place}, u_{number} slides to the {to} along the {face} face, its row tested along (1, {sign}{friction}{number}) in the axes of that face"
+        "{place}, u_{number} slides to the {to} along the {face} face, its row tested along (1, {sign}mu_{number}) in the axes of that face"
     )
 }
 

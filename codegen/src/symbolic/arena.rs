@@ -318,6 +318,8 @@ impl Arena {
             Node::Sum(_) => 4,
             Node::Number(_) => 5,
         };
+        // Any order of coefficients serves.
+        let parts = |number: Rational| (number.numerator, number.denominator);
         let (left, right) = (self.node(a), self.node(b));
         self.level(b).cmp(&self.level(a)).then(kind(left).cmp(&kind(right))).then_with(|| match (left, right) {
             (Node::Cos(x), Node::Cos(y)) | (Node::Sin(x), Node::Sin(y)) => self.order(*x, *y),
@@ -333,7 +335,7 @@ impl Arena {
             (Node::Sum(x), Node::Sum(y)) => {
                 let pairs = x.iter().zip(y);
                 pairs
-                    .map(|(p, q)| self.order(p.1, q.1).then(p.0.cmp(&q.0)))
+                    .map(|(p, q)| self.order(p.1, q.1).then(parts(p.0).cmp(&parts(q.0))))
                     .find(|order| order.is_ne())
                     .unwrap_or(x.len().cmp(&y.len()))
             }

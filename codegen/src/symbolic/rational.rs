@@ -3,7 +3,7 @@
 use std::ops::{Add, Mul, Neg};
 
 /// A reduced fraction with positive denominator.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Rational {
     /// Numerator; carries the sign.
     pub numerator: i64,

@@ -12,7 +12,7 @@
 //! Versions have 43, 55 or 64 lines of `KEY: value`; keys are read in any order, up to the first row of numbers. Only the first
 //! colon separates key and value.
 
-use super::header::{Entry, leading_number, seconds_of, tidy};
+use super::header::{Entry, leading_number, other_duration, seconds_of, tidy};
 use super::numbers::{Block, Word, comma_refused, has_decimal_comma, is_text, words};
 use super::record_file::{Format, PeakBounds, RecordFile, StatedPeak};
 use crate::error::RecordError;
@@ -71,10 +71,10 @@ impl<'t> Header<'t> {
     }
 }
 
-/// Reads a DYNA file.
 /// Number of intervals by which the stated duration may differ from that of the samples: it is from the first to the last, or one more, and rounded.
 const INTERVALS_OFF: f64 = 2.0;
 
+/// Reads a DYNA file.
 pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordError> {
     let header = Header::of(lines);
     if let Some((line, text)) = header.find("DATA_TYPE") {
@@ -108,10 +108,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
         && let Some(duration) = leading_number(text)
         && (duration - count as f64 * dt).abs() > INTERVALS_OFF * dt
     {
-        samples.warnings.push(format!(
-            "{count} samples at {dt} s are {:.6} s, and line {line} says {duration} s; is the file whole?",
-            count as f64 * dt
-        ));
+        samples.warnings.push(other_duration(count, dt, line, duration));
     }
     let mut file = RecordFile::of(Format::Dyna, unit, unit.in_si(options.gravity), dt, samples);
     let stated = header.entries.iter().find(|(_, key, _)| key.starts_with("PGA_")).and_then(|(line, key, value)| {

@@ -79,6 +79,12 @@ impl Entry<'_> {
 /// Largest number of samples that a header declares: four months at 100 Hz. More is a misread header.
 const MOST_SAMPLES: f64 = 1e9;
 
+/// The warning that samples do not fill the duration `[s]` that a line of the header states.
+pub fn other_duration(count: usize, dt: f64, line: usize, duration: f64) -> String {
+    let own = count as f64 * dt;
+    format!("{count} samples at {dt} s are {own:.6} s, and line {line} says {duration} s; is the file whole?")
+}
+
 /// A line as an error quotes it.
 pub fn brief(line: &str) -> String {
     tidy(line).chars().take(80).collect()

@@ -17,8 +17,8 @@
 //! The duration is nominal and no count of samples: all samples are read, with a warning if their duration differs from it. A file
 //! is cut off if it is too short and ends within a number.
 
-use super::header::{Entry, leading_number, seconds_of, tidy};
-use super::numbers::{Block, FixedWidth, is_text, number, split};
+use super::header::{Entry, leading_number, other_duration, seconds_of, tidy};
+use super::numbers::{Block, FixedWidth, is_remark, number, split};
 use super::record_file::{Format, PeakBounds, RecordFile, StatedPeak};
 use crate::error::RecordError;
 use crate::options::TextOptions;
@@ -145,10 +145,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
             return Err(RecordError::Fewer { line, key, declared: nominal, found: count });
         }
         if count != nominal {
-            samples.warnings.push(format!(
-                "{count} samples at {dt} s are {:.6} s, and line {duration_line} says {duration} s; is the file whole?",
-                count as f64 * dt
-            ));
+            samples.warnings.push(other_duration(count, dt, duration_line, duration));
         }
     }
     let mean = samples.values.iter().sum::<f64>() / count.max(1) as f64;
@@ -161,11 +158,6 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let component = header.find(DIRECTION).map(|(_, value)| direction(value)).unwrap_or_default();
     let first_sample = header.find(FIRST_SAMPLE).and_then(|(_, date)| seconds_of(date));
     Ok(RecordFile { title: header.text(ORIGIN), station: header.text(STATION), component, first_sample, ..file })
-}
-
-/// A line without samples.
-fn is_remark(line: &str) -> bool {
-    line.trim().is_empty() || is_text(line)
 }
 
 /// `3920(gal)/6182761`: the unit, and one count in that unit. The unit is gal if it is not named.

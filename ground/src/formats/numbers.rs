@@ -174,21 +174,20 @@ const LONGEST_QUOTE: usize = 40;
 /// Whether a row is text: a heading, a remark, the line that ends a block. It has letters other than those of exponents, and no word of it is
 /// a number.
 pub fn is_text(row: &str) -> bool {
-    // A row with no letters but those of exponents is no text, even if its words are not numbers: numbers may touch.
-    let mut any = false;
-    if !row.contains(|c: char| c.is_alphabetic() && !"eEdD".contains(c)) {
-        return false;
-    }
-    for word in words(row) {
-        any = true;
+    // Words whose only letters are those of exponents may be numbers that touch.
+    let has_letters = row.contains(|c: char| c.is_alphabetic() && !"eEdD".contains(c));
+    let is_no_number = |word: Word| {
         // A printed `nan`, `inf` or `****` is not text: it must be refused, not skipped.
         let lower = word.text.trim_start_matches(['+', '-']).to_ascii_lowercase();
         let undefined = ["nan", "inf", "infinity"].contains(&lower.as_str()) || lower.starts_with('*');
-        if undefined || glued(word.text, &mut Vec::new()).is_some() {
-            return false;
-        }
-    }
-    any
+        !undefined && glued(word.text, &mut Vec::new()).is_none()
+    };
+    has_letters && words(row).all(is_no_number)
+}
+
+/// Whether a line has no samples: it is blank or text.
+pub fn is_remark(line: &str) -> bool {
+    line.trim().is_empty() || is_text(line)
 }
 
 /// Columns of equal width, in characters. A Fortran edit descriptor such as `8F10.5` states the width.

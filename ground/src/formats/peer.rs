@@ -14,7 +14,7 @@
 
 use super::header::{Entry, number_after, tidy};
 use super::heading::Quantity;
-use super::numbers::{Block, FixedWidth, is_text, number, words};
+use super::numbers::{Block, FixedWidth, is_remark, number, words};
 use super::record_file::{Format, RecordFile};
 use super::statement::{self, HEADER_LINES, names_count};
 use super::table;
@@ -43,7 +43,6 @@ fn header(lines: &[&str]) -> Option<usize> {
 
 /// The first line of numbers. Remarks may stand between the header and the numbers.
 fn first_row(lines: &[&str], header: usize) -> usize {
-    let is_remark = |line: &str| line.trim().is_empty() || is_text(line);
     (header + 1..lines.len().min(HEADER_LINES + 1))
         .find(|index| !is_remark(lines[*index]))
         .unwrap_or(lines.len().min(HEADER_LINES + 1).max(header + 1))

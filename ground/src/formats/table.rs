@@ -269,7 +269,7 @@ fn first_row(body: &[(usize, &str)]) -> Result<usize, RecordError> {
     // The last line of text above the numbers has the headings; the lines before it are titles. A line with the number of samples is a title, as are
     // all lines above it.
     let counted = body.iter().take(HEADER_LINES).rposition(|(_, text)| names_count(text)).map_or(0, |place| place + 1);
-    let first = counted + body[counted..].iter().take_while(|(_, text)| is_header(text)).count();
+    let first = counted + body[counted..].iter().take_while(|(_, text)| is_text(text)).count();
     if first == body.len() {
         let word = words(first_text).next().expect("lines without words are left out");
         return Err(unreadable(refused(*first_line, word)));
@@ -311,7 +311,7 @@ const REMARK: [char; 2] = ['#', '%'];
 /// A line without its remark. After names a remark begins with a sign between blanks only: `Sample #` and `Acc (%g)` are names.
 fn without_remark(line: &str) -> &str {
     match line.find(REMARK) {
-        Some(at) if is_header(&line[..at]) => line.split(" # ").next().unwrap_or(line),
+        Some(at) if is_text(&line[..at]) => line.split(" # ").next().unwrap_or(line),
         Some(at) => &line[..at],
         None => line,
     }
@@ -362,11 +362,6 @@ fn unreadable(error: RecordError) -> RecordError {
         RecordError::NotANumber { line, column, text } => RecordError::NoTable { line, column, text },
         other => other,
     }
-}
-
-/// Whether a line has headings: no cell is a number, nor a printed `nan` or `inf`.
-fn is_header(text: &str) -> bool {
-    is_text(text) && text.contains(char::is_alphabetic)
 }
 
 /// Whether commas stand for decimal points. There must be commas but no points; semicolons, tabs or blanks must separate the columns; and

@@ -13,41 +13,6 @@ use crate::plot::style::{self, Stroke};
 const HATCH: Stroke = Stroke::solid(style::INK, 0.8);
 const HATCH_STEP: f64 = 5.0;
 
-impl Class {
-    /// Okabe and Ito's hues on a scale of lightness, the darker the more violent: 100, 87, 72, 58, 41 and 12 of 100.
-    fn fill(self) -> &'static str {
-        match self {
-            Class::NoUplift => "#ffffff",
-            Class::Rocks => "#cfdde9",
-            Class::Overturns => "#0065a0",
-            Class::AfterMore => "#e6a52c",
-            Class::AfterTwo => "#dd6a12",
-            Class::AfterOne => "#0065a0",
-            Class::AtOnce => "#1f1b2e",
-            Class::Slides => "#e9efdc",
-            Class::Collapses => "#7a1f3d",
-            Class::NotDetermined => "#f4edc9",
-            Class::Error => "#f3d6e4",
-        }
-    }
-
-    fn name(self) -> &'static str {
-        match self {
-            Class::NoUplift => "no uplift",
-            Class::Rocks => "rocks and stands",
-            Class::Overturns => "(impacts not counted)",
-            Class::AfterMore => "after 3 impacts or more",
-            Class::AfterTwo => "after 2 impacts",
-            Class::AfterOne => "after 1 impact",
-            Class::AtOnce => "without impact",
-            Class::Slides => "slides and stands",
-            Class::Collapses => "collapses: a block slides off",
-            Class::NotDetermined => "not determined (hatched)",
-            Class::Error => "no result (hatched)",
-        }
-    }
-}
-
 /// Legend entries: each class that occurs, with its share of the panels by the areas of their cells. Classes that are lost come last, the most violent first.
 /// The line `least` of the lowest value that is lost, if given with what the columns do there, comes just before these classes. The first class that
 /// overturns says so.
@@ -57,8 +22,7 @@ pub fn legend(panels: &[Vec<Class>], areas: &[f64], least: Option<(Stroke, &str)
         let share = percent(share(panels, areas, |found| found == class));
         (Key::Fill(class.fill()), format!("{}, {share}", class.name()))
     };
-    let (lost, others): (Vec<Class>, Vec<Class>) =
-        Class::ALL.into_iter().rev().filter(shown).partition(|class| class.is_lost());
+    let (lost, others): (Vec<Class>, Vec<Class>) = Class::all().rev().filter(shown).partition(|class| class.is_lost());
     let mut entries: Vec<_> = others.into_iter().rev().map(entry).collect();
     if !lost.is_empty() {
         entries.extend(least.map(|(stroke, loses)| (Key::Line(stroke), format!("least that {loses}"))));

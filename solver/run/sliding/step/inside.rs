@@ -4,12 +4,12 @@ use super::{Output, Step};
 use crate::friction::chain::Rates;
 use crate::friction::gaps::Corner;
 use crate::friction::guard_series::SeriesSpan;
-use crate::friction::joint::Configuration;
 use crate::mechanics::dynamics::ContactForce;
 use crate::numerics::guards::first_crossing;
 use crate::numerics::per_block::PerBlock;
 use crate::numerics::polynomial::powers::Powers;
 use crate::numerics::polynomial::track::Track;
+use crate::run::log::raise;
 use crate::run::sliding::contacts;
 use crate::run::sliding::recorder::{Node, Snapshots, StepInside};
 use crate::run::sliding::smooth::Snapshot;
@@ -45,7 +45,7 @@ impl<'p, O: Output> StepInside<'p> for Step<'_, 'p, O> {
             self.crests([before.0, s], [&before.1, &omega], peaks);
             before = (s, omega);
         }
-        raise(peaks, &self.at(end, false).configuration);
+        raise(peaks, &self.at(end, false).configuration.theta);
     }
 
     fn nodes(&mut self, until: f64, visit: &mut dyn FnMut(&Node)) {
@@ -123,16 +123,9 @@ impl<O: Output> Step<'_, '_, O> {
             let mut rate =
                 |share: f64| start.signum() * self.at(from + share * (until - from), false).configuration.omega[block];
             if let Some(share) = first_crossing(&mut rate, start.abs(), 1.0) {
-                raise(peaks, &self.at(from + share * (until - from), false).configuration);
+                raise(peaks, &self.at(from + share * (until - from), false).configuration.theta);
             }
         }
-    }
-}
-
-/// Raises the largest magnitudes of angles by those of a configuration.
-fn raise(peaks: &mut [f64], configuration: &Configuration) {
-    for (peak, angle) in peaks.iter_mut().zip(&configuration.theta) {
-        *peak = peak.max(angle.abs());
     }
 }
 
