@@ -85,7 +85,7 @@ pub enum Command {
     },
     /// List the independent rocking modes of a column, or draw them.
     Modes {
-        /// Number of blocks.
+        /// Number of blocks, 1 to 12.
         #[arg(long, value_parser = clap::value_parser!(u8).range(1..=LARGEST_LISTED))]
         blocks: u8,
         /// Draw the modes into this file (SVG, PNG or PDF by its name) instead of listing them; up to 5 blocks.
@@ -101,7 +101,7 @@ pub enum Command {
     },
     /// Print the derivation or the generated code of a mode, or of states that slide and fly.
     Derive {
-        /// Number of blocks.
+        /// Number of blocks, 1 to 12.
         #[arg(long, value_parser = clap::value_parser!(u8).range(1..=LARGEST_LISTED))]
         blocks: u8,
         /// Mode K.J: lowest open interface, number among the states of those above. Or the states of all interfaces, base first, like

@@ -3,6 +3,7 @@
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::fmt::Write;
 use std::io::IsTerminal;
+use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
 /// A bar that shows itself on a terminal once the work has taken a second.
@@ -13,6 +14,9 @@ pub struct Progress {
 
 /// Shorter work needs no bar.
 const PATIENCE: Duration = Duration::from_secs(1);
+
+/// Time between two pictures of a bar that only shows that work goes on.
+const TICK: Duration = Duration::from_millis(100);
 
 /// Positions of the bar per second of simulated time: the bar counts in whole numbers.
 const RESOLUTION: f64 = 1000.0;
@@ -60,6 +64,31 @@ impl Progress {
             bar.finish_and_clear();
         }
     }
+}
+
+/// The result of work whose length is not known. A terminal shows that it goes on.
+pub fn working<T>(work: impl FnOnce() -> T) -> T {
+    if !std::io::stderr().is_terminal() {
+        return work();
+    }
+    std::thread::scope(|scope| {
+        let (running, finished) = channel::<()>();
+        scope.spawn(move || {
+            let bar = ProgressBar::hidden();
+            let mut pause = PATIENCE;
+            while finished.recv_timeout(pause) == Err(RecvTimeoutError::Timeout) {
+                if bar.is_hidden() {
+                    bar.set_draw_target(ProgressDrawTarget::stderr());
+                }
+                bar.tick();
+                pause = TICK;
+            }
+            bar.finish_and_clear();
+        });
+        let result = work();
+        drop(running);
+        result
+    })
 }
 
 /// The time that is left; nothing until the first point is done, as points that were computed before say nothing of it.

@@ -17,13 +17,28 @@ fn derivations_are_printed_as_text_as_code_and_as_latex() {
         &sliding,
         &["pivot_1 = -c_1, sticks", "pivot_2 = top_half_width_1, u_2 slides to the right along the upper face"],
     );
+    // A block that slides does not stay with the ground, and results have the names of the equations.
+    let flat = folder.succeeds("derive --blocks 2 --mode (0,0>)");
+    assert_has(
+        &flat,
+        &["Blocks 1 and 2 do not turn.", "-> M_1_1 = tested_mass_1_1", "-> -(B_1 + Q_1) = tested_load_1"],
+    );
+    assert_has(&text, &["-> theta_ddot_1 = load_1", "-> M_1_1 = link_inertia_1", "-> T = ", "-> V = "]);
     let latex = folder.succeeds("derive --blocks 2 --mode (+>,f) --format latex");
     assert_has(
         &latex,
         &["$p_{1} = b_{1}^{\\mathrm{bot}}$", "$(x^{f}_{2}, y^{f}_{2})$", "interfaces that stick stand aligned"],
     );
+    assert_has(&latex, &["K_{1,2} &= \\mathtt{mass\\_2\\_1}", "f_{3} &= \\mathtt{tested\\_load\\_1}"]);
+    let code = folder.succeeds("derive --blocks 2 --mode (+>,f) --format rust");
+    assert_has(
+        &code,
+        &["//   carried_mass_2 = mass_2", "use rocking::program::{Carried, MovingProgram, MovingState, Scalar};"],
+    );
     let code = folder.succeeds("derive --blocks 2 --mode 1.1 --format rust");
-    assert_has(&code, &["impl<S: Scalar> StepProgram<S> for Dof2", "fn scene_constants"]);
+    let parts = ["impl<S: Scalar> StepProgram<S> for Dof2", "SeriesProgram<S> for SeriesDof2", "fn scene_constants"];
+    assert_has(&code, &parts);
+    assert_has(&code, &["use rocking::program::{", "fn energy_scene_constants", "fn series_scene_constants"]);
     let latex = folder.succeeds("derive --blocks 3 --mode 1.5 --format latex");
     assert_has(&latex, &["\\documentclass", "mode 1.5", "$(+,0,0)$", "J_{1} \\ddot\\theta_{1}", "\\end{document}\n"]);
     folder.refused("derive --blocks 3 --mode 3.2", &["rocking modes --blocks 3"]);

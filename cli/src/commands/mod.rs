@@ -24,6 +24,7 @@ mod trust;
 use crate::arguments::{Arguments, Command};
 use crate::error::Failure;
 use crate::plot::{Angles, Paper};
+use crate::progress::working;
 use crate::terminal::{json, print};
 use modes::Asked;
 use std::path::Path;
@@ -53,12 +54,12 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
         Command::Modes { blocks, json: true, friction: true, .. } => json(&modes::moving_rows(usize::from(blocks))),
         Command::Modes { svg: Some(file), friction: true, .. } => modes::draw_states(&file),
         Command::Modes { blocks, friction: true, .. } => print(&modes::list_moving(usize::from(blocks))),
-        Command::Modes { blocks, json: true, .. } => json(&modes::rows(usize::from(blocks))),
-        Command::Modes { blocks, svg: None, .. } => print(&modes::list_modes(usize::from(blocks))),
+        Command::Modes { blocks, json: true, .. } => json(&working(|| modes::rows(usize::from(blocks)))),
+        Command::Modes { blocks, svg: None, .. } => print(&working(|| modes::list_modes(usize::from(blocks)))),
         Command::Modes { blocks, svg: Some(file), .. } => modes::draw_modes(usize::from(blocks), &file),
         Command::Derive { blocks, mode, counts, format } => {
             let request = if counts { Asked::Counts } else { Asked::Derivation(format) };
-            print(&modes::derive(usize::from(blocks), &mode, request)?)
+            print(&working(|| modes::derive(usize::from(blocks), &mode, request))?)
         }
         Command::Thresholds { scene, json: true } => json(&thresholds::rows(&inputs::scene(&scene)?)),
         Command::Thresholds { scene, .. } => print(&thresholds::thresholds(&inputs::scene(&scene)?)),

@@ -7,6 +7,7 @@ use super::step;
 use crate::catalogue::{Catalogue, map_in_order};
 use crate::derivation::Derivation;
 use crate::ground::GroundMotion;
+use crate::optimise::Constant;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
@@ -76,8 +77,13 @@ pub fn uses() -> TokenStream {
     }
 }
 
-/// The code of one linkage: its step programs with their scene constants, and its energy program.
+/// The code of one linkage: its step programs, its energy program and its program for Taylor series, each with its scene constants.
 pub fn excerpt(derivation: &Derivation) -> String {
+    let constants = |name: &str, constants: &[Constant]| {
+        let title = "Scene constants of this linkage; the sides of its open interfaces are the signs of the pivots.";
+        let energies = &derivation.energies.constants;
+        linkage::scene_constants(&format_ident!("{name}"), title, &derivation.arena, constants, energies)
+    };
     let parts = GroundMotion::ALL.map(|ground| {
         let program = derivation.acceleration(ground);
         let step = step::shared_step_program(program, ground);
@@ -85,15 +91,13 @@ pub fn excerpt(derivation: &Derivation) -> String {
             GroundMotion::Horizontal => "horizontal_scene_constants",
             GroundMotion::WithVertical => "scene_constants",
         };
-        let constants = linkage::scene_constants(
-            &format_ident!("{name}"),
-            "Scene constants of this linkage; the sides of its open interfaces are the signs of the pivots.",
-            &derivation.arena,
-            &program.constants,
-            &derivation.energies.constants,
-        );
+        let constants = constants(name, &program.constants);
         quote! { #step #constants }
     });
-    let energies = step::energy_program(&derivation.energies);
-    heading(&format!("{NOTATION}{PROGRAM_UNITS}")) + &format(quote! { #(#parts)* #energies })
+    let (energies, series) = (step::energy_program(&derivation.energies), step::series_program(&derivation.series));
+    let of_energies = constants("energy_scene_constants", &derivation.energies.constants);
+    let of_series = constants("series_scene_constants", &derivation.series.constants);
+    let uses = quote! { use rocking::program::{EnergyProgram, Geometry, Scalar, SeriesProgram, StepProgram, leading}; };
+    heading(&format!("{NOTATION}{PROGRAM_UNITS}"))
+        + &format(quote! { #uses #(#parts)* #energies #of_energies #series #of_series })
 }

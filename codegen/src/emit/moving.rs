@@ -45,7 +45,9 @@ pub fn moving_module(max_blocks: usize, records: &[MovingRecord]) -> String {
 
 /// The code of one program.
 pub fn moving_excerpt(record: &MovingRecord) -> String {
-    heading(TRANSLATIONS) + &format(program(record))
+    let program = program(record);
+    let uses = quote! { use rocking::program::{Carried, MovingProgram, MovingState, Scalar}; };
+    heading(TRANSLATIONS) + &format(quote! { #uses #program })
 }
 
 fn sizes(record: &MovingRecord) -> [usize; 3] {

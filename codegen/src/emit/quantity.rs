@@ -6,7 +6,7 @@ Blocks are counted from the base. In comments, p_i, h_i, m_i and I_i are the piv
 
 Functions whose names end in `links_n` serve n links that are any rigid bodies: of tapered and displaced blocks, or several blocks that move as one. There p_i, m_i and I_i are those of BODY i, (e_xi, e_i) is its centroid and (t_xi, t_i) the centre of the contact above it, to the right and upwards from the centre of the contact below, in the axes of the body.
 
-Links are the rigid runs of blocks between open interfaces, counted from the lowest that moves. The number in a NAME is that of a LINK: `omega_2` is the rate of link 2. A name with two numbers belongs to a pair of links; names of blocks say so, as `mass_of_block_2`. Link 0 is the ground.
+Links are the rigid runs of blocks between open interfaces, counted from the lowest that moves. The number in a NAME is that of a LINK: `omega_2` is the rate of link 2. A name with two numbers belongs to a pair of links; names of blocks and bodies say so, as in `pivot_of_block_2_times_mass_of_block_3`. Link 0 is the ground.
 
 Angles are absolute and clockwise positive. `axial` is the component along the axis of a link, upwards; `lateral` is the component across the axis, to the left. A body vector (lateral, axial) of link a has the derivative (x, y) = (cos_a * axial + sin_a * lateral, cos_a * lateral - sin_a * axial) by the angle of the link: names with x and y are such derivatives. The stack of an interface is the blocks above it; a contact is the centre of a closed interface.
 
@@ -15,14 +15,16 @@ Angles are absolute and clockwise positive. `axial` is the component along the a
 
 /// Notation of step programs.
 pub const PROGRAM_UNITS: &str = "
-Accelerations do not depend on the unit of mass. Step programs measure mass by J_1, the moment of inertia of the lowest link: `inertia_ratio_a` is J_a / J_1, `moment_axial_a` is the axial component of S_a / J_1, and J_1 itself is one. Where an `inverse_gravity` is among the constants, accelerations are measured by gravity, so that gravity is one, too: moments are then times gravity, and levers over gravity.
+A step program solves the equations of motion, M theta_ddot = load, where load has gravity, ground motion and squared rates.
+
+Accelerations do not depend on the unit of mass. Step programs measure mass by J_1, the moment of inertia of the lowest link: `inertia_ratio_a` is J_a / J_1, `moment_axial_a` is the axial component of S_a / J_1, and J_1 itself is one. Where an `inverse_gravity` is among the constants, linear accelerations are measured by gravity, so that gravity is one, too: moments are then times gravity, and levers over gravity.
 ";
 
 /// Notation of programs with translations.
 pub const TRANSLATIONS: &str = "
 Links are the runs of blocks with one angle, counted from the lowest that turns; link 0 is the ground. Coordinates are the angles of the links, base first, then translations: the slides of interfaces, and two for each interface in flight, horizontal and vertical. Angles are absolute and clockwise positive.
 
-Translation c moves what lies above its interface along (x, y) = (cos_face_c, -sin_face_c), a direction that turns at the rate face_omega_c. `carried_mass_c` is the mass that it moves. `carried_c_axial_a`, `carried_c_lateral_a` are the first moment of that mass about the pivot of link a, as far as link a turns it, the masses of higher links concentrated in the next pivot.
+Translation c moves what lies above its interface along (x, y) = (cos_face_c, -sin_face_c), a direction that turns at the rate face_omega_c. `carried_mass_c` is the mass that it moves. `carried_c_axial_a`, `carried_c_lateral_a` are the first moment of that mass about the pivot of link a, as far as link a turns it, the masses of higher links concentrated in the next pivot. In flight, the pivot of a link is the middle of its base, and the next pivot the middle of its top.
 
 `link_inertia_a`, `link_moment_axial_a`, `link_moment_lateral_a` are the moment of inertia and first moment, about the pivot of link a, of the link and all masses above, those concentrated in the next pivot; `link_lever_axial_a`, `link_lever_lateral_a` lead from the pivot of link a to the next one. `axial` is the component along the axis of a link, upwards; `lateral` is the component across the axis, to the left. A body vector of link a has the derivative (x, y) = (cos_a * axial + sin_a * lateral, cos_a * lateral - sin_a * axial) by the angle of the link. All of these belong to the present slides. All units are SI.
 
@@ -54,7 +56,7 @@ pub fn group(name: &str, previous: Option<&str>) -> Option<&'static str> {
             }
             "mass" => "Mass matrix off the diagonal: M_ba = d_a' . S_b' for links a < b.",
             "bias" => {
-                "Coefficients of squared rates: bias_b_a of rate a in equation b, and -bias_b_a of rate b in equation a."
+                "Coefficients of squared rates on the side of M: bias_b_a of rate a in equation b, -bias_b_a of rate b in equation a; loads have the opposite signs."
             }
             "omega_squared" => "Squared rates.",
             "pivot" => {

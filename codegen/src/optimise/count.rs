@@ -26,11 +26,12 @@ impl fmt::Display for Operations {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "{} flops ({} additions, {} multiplications), {} divisions",
+            "{} flops ({} additions, {} multiplications), {} division{}",
             self.flops(),
             self.additions,
             self.multiplications,
-            self.divisions
+            self.divisions,
+            if self.divisions == 1 { "" } else { "s" }
         )
     }
 }

@@ -6,7 +6,7 @@
 
 use super::compact::{Compact, Definition, Position};
 use super::listing::Listing;
-use super::words::{capital, counted, joined, links_in_words, listed, positions};
+use super::words::{Below, capital, counted, joined, links_in_words, listed, positions};
 use crate::derivation::{Derivation, derive};
 use crate::mechanics::{Symbols, Vector};
 use crate::optimise::Form;
@@ -205,7 +205,9 @@ impl Page<'_> {
             ALIGNED,
             states.join("; "),
             joined(&pivots),
-            capital(&links_in_words(&pattern.linkage().link_of_block(), |link| format!("$\\theta_{{{link}}}$"))),
+            capital(&links_in_words(&pattern.linkage().link_of_block(), Below::Stays, |link| format!(
+                "$\\theta_{{{link}}}$"
+            ))),
         );
         self.section("Notation", &text);
     }

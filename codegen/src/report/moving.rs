@@ -2,7 +2,7 @@
 
 use super::latex::{document, equation, equation_to_zero};
 use super::text::{NOTATION, numbered, program_text};
-use super::words::{capital, counted, joined, links_in_words};
+use super::words::{Below, capital, counted, joined, links_in_words};
 use crate::emit;
 use crate::joints::{Carrier, Joint, Joints, Slip};
 use crate::mechanics::{Coordinate, Kind, Quantities, Rows, Vector, rows_of_motion};
@@ -29,7 +29,7 @@ pub fn moving_text(joints: &Joints) -> String {
         .for_each(|term| *term = arena.expand(*term));
     let record = record(joints);
     let mut out = title(joints, &record);
-    let links = links_in_words(&joints.linkage().link_of_block(), |link| format!("theta_{link}"));
+    let links = links_in_words(&joints.linkage().link_of_block(), Below::DoesNotTurn, |link| format!("theta_{link}"));
     let _ = write!(out, "{}.\n{NOTATION}{ALIGNED}", capital(&links.replace('~', " ")));
     let centroids = rows.centroids.iter().enumerate();
     let centroids =
@@ -48,15 +48,22 @@ pub fn moving_text(joints: &Joints) -> String {
         "\nEquations of motion: sum over b of M_a_b q_b_ddot + B_a + Q_a = 0, with q = ({}); what is zero is left out",
         names.join(", ")
     );
-    section(&mut out, &arena, "What links and translations carry at the present slides: inputs of the program", inputs);
+    section(&mut out, &arena, CARRIED, inputs);
+    out.push_str(ZERO_INPUTS);
     out.push_str(
-        "Inputs that are not listed are zero. Further inputs of translation c: cos_face_c and sin_face_c of the angle\n\
+        "Further inputs of translation c: cos_face_c and sin_face_c of the angle\n\
          of its face, face_omega_c, the rate of the face, rate_c, that of the translation, and lift_c, mu with the sign of the slide. In flight lift_c is zero,\n\
          and the vertical direction has cos_face_c = 0 and sin_face_c = -1.\n",
     );
     out.push_str(&program_text(&record.program));
     out
 }
+
+/// Title of the list of moments, levers and masses.
+const CARRIED: &str = "What links and translations carry at the present slides: inputs of the program";
+
+/// What that list leaves out.
+const ZERO_INPUTS: &str = "Inputs that are not listed are zero.\n";
 
 /// What the sizes of blocks stand for.
 const ALIGNED: &str = "Centroids are at half height, and interfaces that stick stand aligned: c_i is half the contact at interface i. Tapered blocks, and blocks that\n\
@@ -89,14 +96,19 @@ fn inputs(arena: &mut Arena, quantities: &Quantities) -> Vec<(String, Expr)> {
     inputs
 }
 
-/// The emitted Rust of the program that serves a combination of states.
+/// The emitted Rust of the program that serves a combination of states, with the formulas of its inputs as comments.
 ///
 /// # Panics
 /// As [`moving_text`].
 pub fn moving_rust(joints: &Joints) -> String {
+    let mut arena = Arena::new();
+    let quantities = rows_of_motion(&mut arena, joints).quantities(&mut arena);
+    let inputs = inputs(&mut arena, &quantities);
     let record = record(joints);
-    let heading: String =
-        title(joints, &record).lines().map(|line| format!("// {line}").trim_end().to_string() + "\n").collect();
+    let mut heading = title(joints, &record);
+    section(&mut heading, &arena, CARRIED, inputs);
+    heading.push_str(ZERO_INPUTS);
+    let heading: String = heading.lines().map(|line| format!("// {line}").trim_end().to_string() + "\n").collect();
     format!("{heading}{}", emit::moving_excerpt(&record))
 }
 
@@ -227,7 +239,9 @@ impl Sections<'_> {
         let joints = self.joints.0.iter().enumerate();
         let states =
             joints.map(|(index, joint)| format!("interface~{} is {}", index + 1, described_in_tex(*joint, index + 1)));
-        let links = links_in_words(&self.joints.linkage().link_of_block(), |link| format!("$\\theta_{{{link}}}$"));
+        let links = links_in_words(&self.joints.linkage().link_of_block(), Below::DoesNotTurn, |link| {
+            format!("$\\theta_{{{link}}}$")
+        });
         let _ = write!(
             out,
             "\n\\section*{{Notation}}\nBlock $i$, counted from the base, has half-height $h_i$, mass $m_i$ and centroidal moment of inertia $I_i$; \
@@ -331,6 +345,20 @@ fn program(record: &MovingRecord, out: &mut String) {
         })
         .collect();
     display(out, &statements);
+    let Some(routine) = program.routines.first() else { return };
+    let size = record.angles + record.translations;
+    let (matrix, loads) = routine.outputs.split_at(size * size);
+    let matrix = matrix
+        .iter()
+        .enumerate()
+        .map(|(place, entry)| (format!("K_{{{},{}}}", place / size + 1, place % size + 1), *entry));
+    let loads = loads.iter().enumerate().map(|(row, load)| (format!("f_{{{}}}", row + 1), *load));
+    let results: Vec<Vec<String>> = matrix
+        .chain(loads)
+        .map(|(name, value)| equation(&name, &Formula::of(&program.arena, &plain, &[value])))
+        .collect();
+    out.push_str("\nIt returns the matrix $K$ and the loads $f$ of $K \\ddot q = f$, where $q$ are the angles of the links, base first, then the translations:\n");
+    display(out, &results);
 }
 
 /// Direction of a translation, and the virtual displacement on which its equation is formed, as LaTeX.

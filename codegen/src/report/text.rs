@@ -1,10 +1,10 @@
 //! A mode's derivation as plain text, and its code.
 
-use super::words::{capital, links_in_words};
+use super::words::{Below, capital, links_in_words};
 use crate::derivation::{Derivation, derive};
 use crate::emit;
 use crate::ground::GroundMotion;
-use crate::optimise::{Constant, Program};
+use crate::optimise::{Constant, Program, Routine};
 use crate::pattern::{Interface, Pattern};
 use crate::symbolic::{Arena, Expr};
 use std::fmt::Write;
@@ -22,7 +22,7 @@ pub fn text(pattern: &Pattern) -> String {
     let derivation = derive(&pattern.linkage());
     let Derivation { arena, symbols, equations, .. } = &derivation;
     let mut out = title(pattern);
-    let links = links_in_words(&pattern.linkage().link_of_block(), |link| format!("theta_{link}"));
+    let links = links_in_words(&pattern.linkage().link_of_block(), Below::Stays, |link| format!("theta_{link}"));
     let _ = write!(out, "{}.\n{NOTATION}{ALIGNED}", capital(&links.replace('~', " ")));
     let mut section = |name: &str, lines: Vec<(String, Expr)>| {
         let _ = writeln!(out, "\n{name}");
@@ -48,7 +48,8 @@ pub fn text(pattern: &Pattern) -> String {
     let _ = writeln!(
         out,
         "\nEquations of motion: sum over b of M_a_b theta_ddot_b + B_a + Q_a = 0\n\
-         In constants and programs below, numbers of names are those of links, and mass is measured by the moment of inertia of link 1."
+         Below, names on the left of `=` have the numbers of links (mass_2_1 is an entry of the mass matrix); on the right, half_height_i, mass_i, inertia_i and\n\
+         pivot_i are those of block i. Accelerations measure mass by the moment of inertia of link 1."
     );
     for ground in GroundMotion::ALL {
         let program = derivation.acceleration(ground);
@@ -72,8 +73,8 @@ pub fn rust(pattern: &Pattern) -> String {
 }
 
 /// What an excerpt leaves out.
-const EXCERPT: &str = "// An excerpt of the module that the build generates. Traits are those of `rocking::program`; programs of Taylor series\n\
-    // (`SeriesDof2` and the like) and of contact forces are in the module alone.\n//\n";
+const EXCERPT: &str = "// An excerpt of the module that the build generates: it compiles in any crate that depends on `rocking`. Contact forces are\n\
+    // in the module alone.\n//\n";
 
 pub(super) fn title(pattern: &Pattern) -> String {
     let name = match pattern.mode() {
@@ -114,9 +115,26 @@ pub(super) fn program_text(program: &Program) -> String {
         for statement in &routine.statements {
             let _ = writeln!(out, "  {} = {}", statement.name, program.arena.text(statement.value));
         }
-        for output in &routine.outputs {
-            let _ = writeln!(out, "  -> {}", program.arena.text(*output));
+        for (name, output) in result_names(routine, program.dof).iter().zip(&routine.outputs) {
+            let text = program.arena.text(*output);
+            let _ = if text == *name { writeln!(out, "  -> {name}") } else { writeln!(out, "  -> {name} = {text}") };
         }
     }
     out
+}
+
+/// Names of what a routine returns, in its order. `rows` returns the matrix, row by row, and the loads on the other side of the equations of motion.
+fn result_names(routine: &Routine, dof: usize) -> Vec<String> {
+    let matrix =
+        |size: usize| (1..=size).flat_map(|a| (1..=size).map(move |b| format!("M_{a}_{b}"))).collect::<Vec<_>>();
+    match routine.name {
+        "mass_matrix" => matrix(dof),
+        "energies" => ["T", "V"].map(String::from).to_vec(),
+        "rows" => {
+            let size = (0..).find(|size| size * (size + 1) >= routine.outputs.len()).unwrap_or(0);
+            let loads = (1..=size).map(|a| format!("-(B_{a} + Q_{a})"));
+            matrix(size).into_iter().chain(loads).collect()
+        }
+        _ => (1..=dof).map(|link| format!("theta_ddot_{link}")).collect(),
+    }
 }

@@ -1,13 +1,27 @@
 //! Lists and counts in words. A `~` joins a noun and its number, as in LaTeX.
 
-/// Which blocks are which link; `theta` names the angle of a link.
-pub fn links_in_words(link_of_block: &[usize], theta: impl Fn(usize) -> String) -> String {
+/// What the blocks do that turn with no link.
+#[derive(Clone, Copy, Debug)]
+pub enum Below {
+    /// They stand on the ground.
+    Stays,
+    /// They may slide.
+    DoesNotTurn,
+}
+
+/// Which blocks are which link, and what those `below` the lowest link do; `theta` names the angle of a link.
+pub fn links_in_words(link_of_block: &[usize], below: Below, theta: impl Fn(usize) -> String) -> String {
     let of = |link: usize| positions(link_of_block, |known| *known == link);
     let mut members = Vec::new();
     let resting = of(0);
     if !resting.is_empty() {
-        let verb = if resting.len() == 1 { "stays" } else { "stay" };
-        members.push(format!("{} {verb} with the ground", listed("block", &resting)));
+        let does = match (below, resting.len()) {
+            (Below::Stays, 1) => "stays with the ground",
+            (Below::Stays, _) => "stay with the ground",
+            (Below::DoesNotTurn, 1) => "does not turn",
+            (Below::DoesNotTurn, _) => "do not turn",
+        };
+        members.push(format!("{} {does}", listed("block", &resting)));
     }
     for link in 1..=link_of_block.iter().copied().max().unwrap_or(0) {
         let blocks = of(link);
