@@ -159,11 +159,8 @@ impl Default for SolveOptions {
 
 pub use crate::numerics::ode::control::{LOOSEST_TOLERANCE, TIGHTEST_RTOL};
 
-/// Smallest `stick_angle` `[rad]`: lower hops are rounding, and would be taken for separations.
-pub const SMALLEST_STICK_ANGLE: f64 = 1e-20;
-
-/// Smallest `stick_angle` with friction `[rad]`: lower, gaps of angles at landings are rounding, and hops, slides and landings would go on without end.
-pub const SMALLEST_STICK_ANGLE_WITH_FRICTION: f64 = 1e-14;
+/// Smallest `stick_angle` `[rad]`: lower hops are rounding of the angles of blocks. They would be taken for separations, or go on without end.
+pub const SMALLEST_STICK_ANGLE: f64 = 1e-14;
 
 /// Largest number of steps of a method without step control: with more, a step does not advance the time in double precision.
 const MOST_STEPS: f64 = 1e15;
@@ -478,18 +475,11 @@ impl Scene {
             let problem = format!("{:e} is below what double precision can keep", options.rtol);
             faults.note("solver.rtol", problem, "give at least 1e-14");
         }
-        if options.stick_angle < self.smallest_stick_angle() {
-            let remedy =
-                if self.friction.is_none() { "give at least 1e-20" } else { "with friction, give at least 1e-14" };
+        if options.stick_angle < SMALLEST_STICK_ANGLE {
             let problem = format!("{:e} rad is below what rounding can hold", options.stick_angle);
-            faults.note("solver.stick_angle", problem, remedy);
+            faults.note("solver.stick_angle", problem, "give at least 1e-14");
         }
         self.check_rows(faults);
-    }
-
-    /// Smallest `stick_angle` of the scene `[rad]`.
-    pub(crate) fn smallest_stick_angle(&self) -> f64 {
-        if self.friction.is_none() { SMALLEST_STICK_ANGLE } else { SMALLEST_STICK_ANGLE_WITH_FRICTION }
     }
 
     fn check_rows(&self, faults: &mut Faults) {

@@ -22,7 +22,7 @@ use std::f64::consts::TAU;
 const GRAVITY: f64 = 9.81;
 
 /// Hops as small as the block makes them are followed: the closed forms have no rest either `[rad]`.
-const NO_STICKING: f64 = 1e-20;
+const NO_STICKING: f64 = 1e-14;
 
 /// Relative tolerance of a step in free rocking: the tightest there is.
 const RTOL: f64 = 1e-14;
@@ -301,7 +301,7 @@ fn slender(method: Method, amplitude: f64, tau_end: f64) -> (Scene, f64) {
     scene.options.t_end = tau_end / p;
     scene.options.rtol = 1e-13;
     scene.options.atol = 1e-14 * SLENDER;
-    scene.options.stick_angle = 1e-12 * SLENDER;
+    scene.options.stick_angle = NO_STICKING;
     (scene, p)
 }
 

@@ -209,7 +209,7 @@ fn the_list_has_units_and_defaults() {
             .unwrap_or_else(|| panic!("{key}: {text}"))
     };
     assert!(
-        line("stick_angle").contains("number ≥ 1e-20, ≤ 0.01")
+        line("stick_angle").contains("number ≥ 1e-14, ≤ 0.01")
             && line("stick_angle").contains("rad")
             && line("stick_angle").ends_with("default: 1e-9"),
         "{}",

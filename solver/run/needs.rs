@@ -73,13 +73,15 @@ impl Account {
     /// Adds a panel, which the motion passes `weight` times; returns whether it has a new extreme. `time` is that of a place in the panel, 0 to 1 `[s]`.
     fn add(&mut self, own: &PanelForces, time: &dyn Fn(f64) -> f64, weight: f64) -> bool {
         let (is_higher, is_lower) = (own.largest_demand > self.demand.value, own.least_normal < self.normal.value);
-        let pull = own.normal.map(|normal| -normal);
         if is_higher {
-            let extreme = if own.largest_demand.is_finite() { own.demand } else { pull };
-            self.demand = ExtremeSoFar { value: own.largest_demand, t: time(place_of_crest(extreme)), theta: f64::NAN };
+            self.demand = ExtremeSoFar { value: own.largest_demand, t: time(own.place_of_demand), theta: f64::NAN };
         }
         if is_lower {
-            self.normal = ExtremeSoFar { value: own.least_normal, t: time(place_of_crest(pull)), theta: f64::NAN };
+            self.normal = ExtremeSoFar {
+                value: own.least_normal,
+                t: time(place_of_crest(own.normal.map(|normal| -normal))),
+                theta: f64::NAN,
+            };
         }
         if own.least_normal < 0.0 {
             self.tension += weight * own.time_in_tension(time);
@@ -127,14 +129,19 @@ impl Needs {
     /// Begins a stretch that ends at a time `[s]`. `peaks` are the largest angles so far, those of the stretch included `[rad]`.
     pub fn begin(&mut self, inside: &mut dyn Inside, end: f64, peaks: &[f64]) {
         if margin(peaks, &self.balances) < 0.0 {
-            self.follow_balances(inside, end);
+            let start = self.last_end;
+            let turns = turning_times(inside, start, end);
+            let ends = turns.iter().copied().chain([end]);
+            ends.fold(start, |from, until| {
+                self.follow_balances(inside, from, until);
+                until
+            });
         }
         self.last_end = end;
     }
 
-    /// Follows which blocks pass their balance, and which come back, in a stretch that ends at a time `[s]`.
-    fn follow_balances(&mut self, inside: &mut dyn Inside, end: f64) {
-        let start = self.last_end;
+    /// Follows which blocks pass their balance, and which come back, between two times of a stretch between which no block turns `[s]`.
+    fn follow_balances(&mut self, inside: &mut dyn Inside, start: f64, end: f64) {
         let is_past = past_balance(&inside.state_at(end).0, &self.balances);
         let mut returned: Option<f64> = None;
         for block in (0..is_past.len()).filter(|block| self.is_past[*block] && !is_past[*block]) {
@@ -237,6 +244,16 @@ impl Needs {
             first_separation: separations.first().copied(),
         }
     }
+}
+
+/// Times within a stretch at which blocks turn `[s]`, in order. A closed-form swing is one stretch, however far it goes.
+fn turning_times(inside: &mut dyn Inside, start: f64, end: f64) -> PerBlock<f64> {
+    let [before, after] = [start, end].map(|t| inside.state_at(t).1);
+    let turning = (0..before.len()).filter(|block| before[*block] * after[*block] < 0.0);
+    let times = turning.map(|block| root_between(start, end, |t| inside.state_at(t).1[block]));
+    let mut times: PerBlock<f64> = times.collect();
+    times.sort_by(f64::total_cmp);
+    times
 }
 
 /// Whether each block is past its balance.

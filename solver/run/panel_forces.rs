@@ -2,12 +2,14 @@
 
 use crate::mechanics::dynamics::ContactForce;
 
-/// Forces at a contact within a panel: forces and friction demands at start, middle and end, and extremes of the parabolas through them.
+/// Forces at a contact within a panel at start, middle and end, and extremes of the parabolas through them.
 pub(crate) struct PanelForces {
     tangential: [f64; 3],
     pub normal: [f64; 3],
-    pub demand: [f64; 3],
+    /// Largest friction demand: of the tangential over the normal force. A parabola through demands would miss where the normal force is small.
     pub largest_demand: f64,
+    /// Place of that demand in the panel, 0 to 1. Where the demand is infinite, the contact presses least there.
+    pub place_of_demand: f64,
     pub least_normal: f64,
 }
 
@@ -18,12 +20,14 @@ impl PanelForces {
         let (tangential, normal) = (forces.map(|force| force.tangential), forces.map(|force| force.normal));
         let largest = |[a, b, c]: [f64; 3]| if is_monotonic { a.max(c) } else { crest([a, b, c]) };
         let least_normal = -largest(normal.map(|normal| -normal));
-        let demand = forces.map(|force| force.friction_demand());
-        let is_finite = demand.iter().all(|demand| demand.is_finite());
         // Between the three places the contact may part while a tangential force acts.
         let parts = least_normal <= 0.0 && tangential.iter().any(|tangential| *tangential != 0.0);
-        let largest_demand = if is_finite && !parts { largest(demand) } else { f64::INFINITY };
-        PanelForces { tangential, normal, demand, largest_demand, least_normal }
+        let (largest_demand, place_of_demand) = match (parts, is_monotonic) {
+            (true, _) => (f64::INFINITY, place_of_crest(normal.map(|normal| -normal))),
+            (false, true) => higher([0, 2].map(|node| (forces[node].friction_demand(), 0.5 * node as f64))),
+            (false, false) => crest_of_demand(forces),
+        };
+        PanelForces { tangential, normal, largest_demand, place_of_demand, least_normal }
     }
 
     /// Forces within a part of the panel, between two shares of its length.
@@ -64,11 +68,45 @@ fn time_of_any(quantities: [[f64; 3]; 2], time: &dyn Fn(f64) -> f64) -> f64 {
 }
 
 /// Roots of the parabola through values at 0, 1/2 and 1; not a number where there is none.
-fn roots([a, b, c]: [f64; 3]) -> [f64; 2] {
-    let (slope, bend) = (4.0 * b - 3.0 * a - c, 2.0 * a - 4.0 * b + 2.0 * c);
+fn roots(values: [f64; 3]) -> [f64; 2] {
+    roots_of(powers(values))
+}
+
+/// Roots of `a + slope x + bend x²`; not a number where there is none.
+fn roots_of([a, slope, bend]: [f64; 3]) -> [f64; 2] {
     // Without cancellation: the larger sum, and the product of both roots.
     let sum = -0.5 * (slope + (slope * slope - 4.0 * bend * a).sqrt().copysign(slope));
     [sum / bend, a / sum]
+}
+
+/// The largest friction demand of forces that are parabolas through these, and its place, 0 to 1.
+///
+/// ```text
+/// (T/N)' = 0:  (T_1 N_0 - T_0 N_1) + 2 (T_2 N_0 - T_0 N_2) x + (T_2 N_1 - T_1 N_2) x² = 0
+/// ```
+#[inline(always)]
+fn crest_of_demand(forces: [ContactForce; 3]) -> (f64, f64) {
+    let (tangential, normal) = (forces.map(|force| force.tangential), forces.map(|force| force.normal));
+    let demand = forces.map(|force| force.friction_demand());
+    let nodes = higher([higher([(demand[0], 0.0), (demand[2], 1.0)]), (demand[1], 0.5)]);
+    let ([t_0, t_1, t_2], [n_0, n_1, n_2]) = (powers(tangential), powers(normal));
+    let (constant, slope, bend) = (t_1 * n_0 - t_0 * n_1, 2.0 * (t_2 * n_0 - t_0 * n_2), t_2 * n_1 - t_1 * n_2);
+    // In Bernstein's form: with coefficients of one sign there is no root within the panel.
+    let (middle, end) = (constant + 0.5 * slope, constant + slope + bend);
+    if constant.min(middle).min(end) >= 0.0 || constant.max(middle).max(end) <= 0.0 {
+        return nodes;
+    }
+    let [one, other] = roots_of([constant, slope, bend]);
+    let at = |place: f64| match place > 0.0 && place < 1.0 {
+        true => (parabola(tangential, place).abs() / parabola(normal, place), place),
+        false => nodes,
+    };
+    higher([higher([nodes, at(one)]), at(other)])
+}
+
+/// The pair with the higher first number; the first one of two that are equal.
+fn higher([one, other]: [(f64, f64); 2]) -> (f64, f64) {
+    if other.0 > one.0 { other } else { one }
 }
 
 /// The largest value of the parabola through three equally spaced values, between the outer two.
@@ -78,9 +116,15 @@ fn crest([a, b, c]: [f64; 3]) -> f64 {
     if bend < 0.0 && slope.abs() < -bend { largest.max(b - 0.5 * slope * slope / bend) } else { largest }
 }
 
+/// Coefficients of `1`, `x` and `x²` of the parabola through values at 0, 1/2 and 1.
+fn powers([a, b, c]: [f64; 3]) -> [f64; 3] {
+    [a, 4.0 * b - 3.0 * a - c, 2.0 * a - 4.0 * b + 2.0 * c]
+}
+
 /// The parabola through values at 0, 1/2 and 1.
-fn parabola([a, b, c]: [f64; 3], share: f64) -> f64 {
-    a + share * (4.0 * b - 3.0 * a - c + share * (2.0 * a - 4.0 * b + 2.0 * c))
+fn parabola(values: [f64; 3], share: f64) -> f64 {
+    let [a, slope, bend] = powers(values);
+    a + share * (slope + share * bend)
 }
 
 /// Place, 0 to 1, of the largest value of a quantity with these values at start, middle and end: the crest of their parabola, or one of the three.
@@ -97,6 +141,23 @@ pub(crate) fn place_of_crest([a, b, c]: [f64; 3]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// `T = 1`, `N = x² - x + 0.3`: the demand has its crest `1/0.05` at the middle, between nodes that are far from it.
+    #[test]
+    fn demands_have_their_crest_where_the_normal_force_is_least() {
+        let force = |x: f64| ContactForce { normal: x * x - x + 0.3, tangential: 1.0, moment: 0.0 };
+        let found = PanelForces::of([0.1, 0.4, 0.7].map(force), false);
+        assert!((found.largest_demand - 20.0).abs() < 1e-12, "{}", found.largest_demand);
+        assert!((found.place_of_demand - 2.0 / 3.0).abs() < 1e-12);
+        // With the tangential force turning, the largest size counts: T = x - 0.8, N = 1 + x on [0, 1] is largest at its start.
+        let force = |x: f64| ContactForce { normal: 1.0 + x, tangential: x - 0.8, moment: 0.0 };
+        let found = PanelForces::of([0.0, 0.5, 1.0].map(force), false);
+        assert_eq!((found.largest_demand, found.place_of_demand), (0.8, 0.0));
+        // A crest of T/N between the nodes: T = x, N = 1 + x² on [0.6, 1.2].
+        let force = |x: f64| ContactForce { normal: 1.0 + x * x, tangential: -x, moment: 0.0 };
+        let found = PanelForces::of([0.6, 0.9, 1.2].map(force), false);
+        assert!((found.largest_demand - 0.5).abs() < 1e-14 && (found.place_of_demand - 2.0 / 3.0).abs() < 1e-6);
+    }
 
     #[test]
     fn crests_and_shares_of_parabolas_are_found() {

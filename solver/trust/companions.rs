@@ -4,7 +4,7 @@ use super::history::{AGREEMENT, Comparison};
 use super::verdict::Verdict;
 use crate::column::{Block, Column};
 use crate::response::Response;
-use crate::scene::{Scene, TIGHTEST_RTOL};
+use crate::scene::{SMALLEST_STICK_ANGLE, Scene, TIGHTEST_RTOL};
 use rocking_ground::Motion;
 use serde::{Deserialize, Serialize};
 
@@ -59,7 +59,7 @@ impl Change {
                 let options = &mut changed.options;
                 options.rtol = (options.rtol * factor).max(TIGHTEST_RTOL.min(options.rtol));
                 options.atol *= factor;
-                options.stick_angle = (options.stick_angle * factor).max(scene.smallest_stick_angle());
+                options.stick_angle = (options.stick_angle * factor).max(SMALLEST_STICK_ANGLE);
                 options.step *= factor.sqrt().sqrt();
             }
             Change::Excitation(change) => {

@@ -249,7 +249,7 @@ pub struct Solver {
     #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "s", "x-default" = "1e-3"))]
     pub step: Option<f64>,
     /// a hop lower than this closes
-    #[schemars(range(min = 1e-20, max = 0.01), extend("x-unit" = "rad", "x-default" = "1e-9"))]
+    #[schemars(range(min = 1e-14, max = 0.01), extend("x-unit" = "rad", "x-default" = "1e-9"))]
     pub stick_angle: Option<f64>,
     /// the column has overturned when some angle reaches this
     #[schemars(extend("maximum" = std::f64::consts::PI, "exclusiveMinimum" = 0, "x-unit" = "rad", "x-default" = "pi/2"))]
