@@ -18,6 +18,12 @@ use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::sync::Arc;
 
+/// The name of a value in files; blank for a value without one.
+fn name(value: &impl Serialize) -> String {
+    let name = serde_json::to_value(value).ok();
+    name.and_then(|name| name.as_str().map(String::from)).unwrap_or_default()
+}
+
 /// What a run returns.
 #[pyclass(frozen, module = "rocking._rocking")]
 pub struct Response {
@@ -167,18 +173,15 @@ impl Response {
     /// Columns that the scene asks for, by their names in a scene file.
     #[getter]
     fn output_columns(&self) -> Vec<String> {
-        let name = |column| serde_json::to_value(column).ok().and_then(|name| name.as_str().map(String::from));
-        self.scene.output_columns.iter().filter_map(name).collect()
+        self.scene.output_columns.iter().map(name).collect()
     }
 
     /// Events as columns; arrays of angles, rates, slides and impulses have the shape (events, blocks).
     fn events<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let events = &self.response.events;
         let columns = PyDict::new(py);
-        let kind =
-            |event: &Event| serde_json::to_value(event.kind).ok().and_then(|name| name.as_str().map(String::from));
         columns.set_item("t", PyArray1::from_iter(py, events.iter().map(|event| event.t)))?;
-        columns.set_item("kind", events.iter().map(|event| kind(event).unwrap_or_default()).collect::<Vec<_>>())?;
+        columns.set_item("kind", events.iter().map(|event| name(&event.kind)).collect::<Vec<_>>())?;
         let interface = |event: &Event| event.interface.and_then(|number| i64::try_from(number).ok());
         columns
             .set_item("interface", PyArray1::from_iter(py, events.iter().map(|event| interface(event).unwrap_or(0))))?;
@@ -218,8 +221,7 @@ impl Response {
     /// Why the run ended, as in `summary.json`.
     #[getter]
     fn status(&self) -> String {
-        let name = serde_json::to_value(self.response.status).ok();
-        name.and_then(|name| name.as_str().map(String::from)).unwrap_or_default()
+        name(&self.response.status)
     }
 
     #[getter]

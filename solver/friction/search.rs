@@ -519,8 +519,8 @@ impl<'a> Search<'a> {
         pairs.any(|(a, b)| (a[0] - b[0]).abs() + (a[1] - b[1]).abs() > OTHER_SHARE * self.linear)
     }
 
-    /// Whether states are admissible by more than rounding. What is exactly critical and only just admissible, such as sticking where a slide begins, is no
-    /// second answer.
+    /// Whether states are admissible by more than rounding. States that are admissible by rounding only, such as sticking just where a slide begins, are the
+    /// same motion as the states beside them, and no second one.
     fn is_clear(&self, joints: &[Joint], answer: &Answer) -> bool {
         self.is_admissible(joints, answer, self.slack.margin())
     }

@@ -118,7 +118,7 @@ impl Simulator {
         scene: &Scene,
         progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<Response, SolveError> {
-        // A run that was stopped, or one with friction, may have left its work.
+        // Counts of work that an earlier run has not collected are dropped: one that was cancelled, or one with friction.
         self.modes.take_work();
         let mut response = self.response(scene, progress)?;
         let ground_moves = scene.excitation.moves_after(scene.options.t_end);

@@ -8,8 +8,8 @@ use crate::numerics::per_block::PerBlock;
 use crate::response::Work;
 use rocking_codegen::pattern::Interface;
 
-/// Why a stretch ended. The tag is a word, as in [`Over`]. With a tag of one byte, copies read across several earlier stores and wait for them: runs
-/// of one block would take a twentieth longer.
+/// Why a stretch ended. The tag has eight bytes, as in [`Over`]. With a tag of one byte a copy would wait for the separate stores that it spans: runs of one
+/// block would take a twentieth longer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(u64)]
 pub(crate) enum Ended {

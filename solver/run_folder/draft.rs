@@ -1,7 +1,7 @@
 //! Files under temporary names, until they are complete and renamed.
 //!
-//! The process that writes a draft locks it. Who is killed leaves drafts without a lock behind, and second names of what was to be replaced; the next run
-//! into the folder removes them. (On Unix: on other systems a locked file can neither be read nor renamed.)
+//! The process that writes a draft locks it. A process that is killed leaves unlocked drafts behind, and second names of files that were to be replaced; the
+//! next run into the folder removes them. (On Unix: on other systems a locked file can neither be read nor renamed.)
 
 use super::digest::Digest;
 use std::fs::{File, TryLockError};

@@ -52,9 +52,7 @@ pub fn draw(motion: &DrawnRun) -> Figure {
     let mut sheet = Sheet::new("Kinetic, potential and total energy over time", motion.paper);
     let entries: Vec<_> = KINDS.map(|(name, stroke)| (Key::Line(stroke), name.to_string())).into();
     let top = sheet.legend(0.0, &entries) + 4.0;
-    let panel = sheet.wide(top, HEIGHT, time_axis(motion), Some(axis));
-    sheet.axes(&panel);
-    sheet.label_upwards(&panel);
+    let panel = sheet.panel(top, HEIGHT, time_axis(motion), axis);
     sheet.level(&panel, 0.0, &Stroke::solid(style::GREY, 0.8));
     for (curve, (_, stroke)) in curves.iter().zip(&KINDS) {
         let scaled: Vec<Point> = curve.iter().map(|[t, value]| [*t, value * factor]).collect();

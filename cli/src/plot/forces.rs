@@ -46,9 +46,7 @@ pub fn draw(motion: &DrawnRun) -> Figure {
     let normals = contacts.iter().flat_map(|contact| &contact.normal).map(|point| point[1]);
     let normals = normals.map(|normal| normal.clamp(-1.0, LARGEST_NORMAL)).chain([0.0, 1.0]);
     let label = "Normal force N/W";
-    let normal = sheet.wide(top, NORMAL, time_axis(motion).unnumbered(), Some(Axis::around(label, normals, 3)));
-    sheet.axes(&normal);
-    sheet.label_upwards(&normal);
+    let normal = sheet.panel(top, NORMAL, time_axis(motion).unnumbered(), Axis::around(label, normals, 3));
     sheet.level(&normal, 0.0, &Stroke::solid(style::GREY, 0.8));
     sheet.level(&normal, 1.0, &style::REFERENCE);
     for (interface, contact) in contacts.iter().enumerate() {
@@ -62,9 +60,7 @@ pub fn draw(motion: &DrawnRun) -> Figure {
     let most = LARGEST_DEMAND.max(largest.map_or(0.0, |friction| friction * 4.0 / 3.0));
     let least = largest.unwrap_or(0.05) * 1.15;
     let axis = Axis::over("Friction demand |T|/N", [0.0, (needed * 1.08).clamp(least.min(most), most)], 4);
-    let friction = sheet.wide(normal.frame.bottom() + GAP, FRICTION, time_axis(motion), Some(axis));
-    sheet.axes(&friction);
-    sheet.label_upwards(&friction);
+    let friction = sheet.panel(normal.frame.bottom() + GAP, FRICTION, time_axis(motion), axis);
     // These lines are drawn first, below the curves, so that a peak that reaches one is seen.
     available.iter().for_each(|coefficient| sheet.level(&friction, *coefficient, &AVAILABLE));
     for (interface, contact) in contacts.iter().enumerate() {

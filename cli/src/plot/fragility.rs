@@ -32,9 +32,7 @@ pub fn fragility(label: &str, states: &[Fragility], paper: &Paper) -> Figure {
         paper,
     );
     let x = Axis::over(label, [0.0, top * 1.03], 6);
-    let panel = sheet.wide(TOP, HEIGHT, x, Some(Axis::over("Probability", [-0.02, 1.02], 6)));
-    sheet.axes(&panel);
-    sheet.label_upwards(&panel);
+    let panel = sheet.panel(TOP, HEIGHT, x, Axis::over("Probability", [-0.02, 1.02], 6));
     for (place, state) in states.iter().enumerate() {
         let stroke = style::line(place);
         let edge = Stroke::solid(stroke.color, 0.7);

@@ -33,16 +33,12 @@ pub fn record(title: &str, record: &Record, gravity: f64, paper: &Paper) -> Figu
     let mut top = GAP;
     for (label, values) in quantities {
         let axis = Axis::around(label, values.iter().copied(), 3);
-        let panel = sheet.wide(top, HEIGHT, time.unnumbered(), Some(axis));
-        sheet.axes(&panel);
-        sheet.label_upwards(&panel);
+        let panel = sheet.panel(top, HEIGHT, time.unnumbered(), axis);
         sheet.level(&panel, 0.0, &Stroke::solid(style::GREY, 0.8));
         sheet.history(&panel, &series(&values, dt), &CURVE);
         top = panel.frame.bottom() + GAP;
     }
-    let panel = sheet.wide(top, HEIGHT, time, Some(Axis::over("Arias [%]", [0.0, 104.0], 5)));
-    sheet.axes(&panel);
-    sheet.label_upwards(&panel);
+    let panel = sheet.panel(top, HEIGHT, time, Axis::over("Arias [%]", [0.0, 104.0], 5));
     let percent: Vec<f64> = husid(accel).iter().map(|share| 100.0 * share).collect();
     sheet.history(&panel, &series(&percent, dt), &BUILD_UP);
     let is_silent = measures.arias == 0.0;

@@ -146,6 +146,14 @@ impl Sheet {
         Panel { frame: Frame { left: LEFT, top, width: self.width - LEFT - RIGHT, height }, x, y }
     }
 
+    /// A panel over the width of the sheet, drawn with its axes; the label of the vertical one reads upwards.
+    pub fn panel(&mut self, top: f64, height: f64, x: Axis, y: Axis) -> Panel {
+        let panel = self.wide(top, height, x, Some(y));
+        self.axes(&panel);
+        self.label_upwards(&panel);
+        panel
+    }
+
     /// Largest number of panels that have room beside one another.
     pub fn most_columns(&self) -> usize {
         ((self.width - LEFT - RIGHT) / NARROWEST).floor().max(1.0) as usize

@@ -70,9 +70,7 @@ fn curves_panel(
         _ => (1e3, "mm"),
     };
     let axis = Axis::around(&format!("{name} [{unit}]"), values.iter().map(|value| value * factor), 3);
-    let panel = sheet.wide(top, height, time, Some(axis));
-    sheet.axes(&panel);
-    sheet.label_upwards(&panel);
+    let panel = sheet.panel(top, height, time, axis);
     sheet.level(&panel, 0.0, &Stroke::solid(style::GREY, 0.8));
     for (interface, parts) in curves.iter().enumerate() {
         let scaled = |part: &Vec<Point>| part.iter().map(|[t, value]| [*t, value * factor]).collect::<Vec<Point>>();

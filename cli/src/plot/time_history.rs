@@ -52,9 +52,7 @@ fn ground_panel(sheet: &mut Sheet, motion: &DrawnRun, top: f64) -> f64 {
         let entries: Vec<_> = strokes.iter().cloned().map(Key::Line).zip(names).collect();
         top = sheet.legend(top - GAP, &entries) + 2.0;
     }
-    let panel = sheet.wide(top, GROUND, time_axis(motion).unnumbered(), Some(axis));
-    sheet.axes(&panel);
-    sheet.label_upwards(&panel);
+    let panel = sheet.panel(top, GROUND, time_axis(motion).unnumbered(), axis);
     sheet.level(&panel, 0.0, &Stroke::solid(style::GREY, 0.8));
     for (points, stroke) in directions.iter().zip(&strokes).rev() {
         if vertical || std::ptr::eq(stroke, &strokes[0]) {
@@ -104,9 +102,7 @@ fn angles_panel(sheet: &mut Sheet, motion: &DrawnRun, top: f64) -> Panel {
         (Angles::Degrees, 1) => "Angle θ [°]",
         (Angles::Degrees, _) => "Angles θᵢ [°]",
     };
-    let panel = sheet.wide(top, ANGLES, time_axis(motion).unnumbered(), Some(Axis::around(label, values, 4)));
-    sheet.axes(&panel);
-    sheet.label_upwards(&panel);
+    let panel = sheet.panel(top, ANGLES, time_axis(motion).unnumbered(), Axis::around(label, values, 4));
     band::draw(sheet, motion, &panel);
     sheet.level(&panel, 0.0, &Stroke::solid(style::GREY, 0.8));
     if let Some(bound) = balance(motion) {

@@ -138,7 +138,7 @@ impl Growing {
     }
 }
 
-/// Largest number of times that a hidden file is opened: on some file systems a file has another number each time it is asked for.
+/// Largest number of times that a hidden file is opened: on some network file systems a file has another inode number at each request.
 const MOST_TRIES: usize = 100;
 
 /// The hidden file `part` of the table `out`, which is made if there is none, locked.

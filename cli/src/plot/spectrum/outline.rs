@@ -94,8 +94,8 @@ fn outline(region_of: &[usize], [columns, rows]: [usize; 2], region: usize, firs
             return corners;
         }
         let [left, right] = ahead[step].map(|cell| is_inside(at, cell));
-        // The region stays on the left. If it has no cell ahead on the left, the edge turns left: a cell ahead on the right, if any,
-        // then only touches at the corner. If it has cells ahead on both sides, the edge turns right.
+        // The region stays on the left. No cell ahead on the left: the edge turns left (a cell ahead on the right touches at the corner only). Cells ahead on
+        // both sides: it turns right.
         let turned = match (left, right) {
             (false, _) => (step + 1) % 4,
             (true, true) => (step + 3) % 4,
