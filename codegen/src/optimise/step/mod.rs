@@ -44,10 +44,13 @@ pub fn energy_program(arena: &mut Arena, symbols: &Symbols, parts: &Parts) -> Pr
     let mut builder = ProgramBuilder::new(arena, symbols);
 
     parts.name_vectors(&mut builder, "link_");
-    let outputs = (0..dof).flat_map(|row| (0..dof).map(move |column| (row, column)));
-    let outputs =
-        outputs.map(|(row, column)| builder.translate(parts.mass[row.max(column)][row.min(column)])).collect();
-    builder.finish_routine("mass_matrix", outputs);
+    let mut mass = |row: usize, column: usize| {
+        let entry = builder.translate(parts.mass[row][column]);
+        builder.define(format!("mass_{}_{}", row + 1, column + 1), entry)
+    };
+    let mass: Vec<Vec<Expr>> = (0..dof).map(|row| (0..=row).map(|column| mass(row, column)).collect()).collect();
+    let outputs = (0..dof).flat_map(|row| (0..dof).map(move |column| (row.max(column), row.min(column))));
+    builder.finish_routine("mass_matrix", outputs.map(|(row, column)| mass[row][column]).collect());
 
     parts.name_vectors(&mut builder, "link_");
     let outputs = energies(&mut builder, symbols, parts);
