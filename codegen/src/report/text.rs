@@ -49,7 +49,8 @@ pub fn text(pattern: &Pattern) -> String {
         out,
         "\nEquations of motion: sum over b of M_a_b theta_ddot_b + B_a + Q_a = 0\n\
          Below, names on the left of `=` have the numbers of links (mass_2_1 is an entry of the mass matrix); on the right, half_height_i, mass_i, inertia_i and\n\
-         pivot_i are those of block i. Accelerations measure mass by the moment of inertia of link 1."
+         pivot_i are those of block i. Accelerations measure mass by the moment of inertia of link 1; with `unit inertia and gravity`, moments are times gravity,\n\
+         and levers over gravity."
     );
     for ground in GroundMotion::ALL {
         let program = derivation.acceleration(ground);
