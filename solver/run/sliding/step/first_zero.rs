@@ -253,9 +253,13 @@ impl<O: Output> Step<'_, '_, O> {
             return if end < limit { Some(0.0) } else { self.falls_from_zero(value, noise, clear, limit) };
         }
         let two = value(self, (2.0 * near).min(end));
-        let order = libm::log2((two / one).abs()).round().clamp(1.0, 3.0) as usize;
+        let order = libm::log2((two / one).abs()).round();
         // Not `powi`: its rounding is not the same on every machine.
-        let power = |x: f64| [x, x * x, x * (x * x)][order - 1];
+        let power = |x: f64| match order {
+            3.0.. => x * (x * x),
+            2.0.. => x * x,
+            _ => x,
+        };
         first_crossing(|s| value(self, s.max(near)) / power(s.max(near) / near), one, end)
     }
 
