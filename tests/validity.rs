@@ -1,6 +1,10 @@
 //! What contacts need (`rocking::validity`) does not depend on how long the stretches of a method are.
 
-use rocking::{Method, Response, Scene, simulate};
+use random::Random;
+use rocking::{Block, Column, Method, Motion, Response, Scene, simulate};
+
+#[path = "common/random.rs"]
+mod random;
 
 fn run(text: &str, method: Method) -> Response {
     let mut scene = Scene::from_toml(text, "scene.toml".as_ref()).expect("valid");
@@ -9,7 +13,7 @@ fn run(text: &str, method: Method) -> Response {
 }
 
 /// Vertical motion nearly cancels gravity, so that the friction demand has a narrow crest. Steps of Kutta and Merson are short; a program of another author
-/// gave 0.440656.
+/// gave 0.440656, to six digits. Those with long steps are off by up to 5.3e-4; half as much again is allowed.
 #[test]
 fn demands_of_forces_are_those_of_short_steps() {
     let text = r#"
@@ -34,8 +38,41 @@ fn demands_of_forces_are_those_of_short_steps() {
     assert!((short / 0.440656 - 1.0).abs() < 2e-6, "{short}");
     for method in [Method::Auto, Method::Taylor, Method::Dop853, Method::DormandPrince54] {
         let demand = run(text, method).friction_demand[0];
-        assert!((demand / short - 1.0).abs() < 1e-3, "{method:?}: {demand} and {short}");
+        assert!((demand / short - 1.0).abs() < 8e-4, "{method:?}: {demand} and {short}");
     }
+}
+
+/// Demands below 1, half of the columns with vertical motion as well. Measured: 2,954 demands, off by up to 5.7e-4.
+#[test]
+fn demands_of_random_columns_are_those_of_short_steps() {
+    let (mut random, columns) = (Random::new(2), 2000);
+    let (mut compared, mut worst) = (0, 0.0f64);
+    for index in 0..columns {
+        let block = |random: &mut Random| Block::rectangle(random.within(0.2, 0.6), random.within(0.4, 1.5), 1.0);
+        let blocks = (0..1 + random.below(3)).map(|_| block(&mut random)).collect();
+        let mut scene = Scene::new(Column::new(blocks, 9.81).expect("positive sizes"));
+        let [amplitude, omega] = [random.within(2.0, 8.0), random.within(4.0, 14.0)];
+        scene.excitation.horizontal = Some(Motion::SinePulse { amplitude, omega, start: 0.0 });
+        let [amplitude, omega] = [random.within(1.0, 8.0), random.within(4.0, 20.0)];
+        let vertical = Motion::Harmonic { amplitude, omega, start: 0.0, phase: 0.0 };
+        scene.excitation.vertical = (index % 2 == 1).then_some(vertical);
+        (scene.options.t_end, scene.options.rtol) = (3.0, 1e-9);
+        let [long, short] = [Method::Auto, Method::KuttaMerson].map(|method| {
+            scene.options.method = method;
+            simulate(&scene).expect("it runs")
+        });
+        // Where rounding has parted the two runs, their demands are of different motions.
+        if long.impacts != short.impacts || (long.t_final - short.t_final).abs() > 1e-6 {
+            continue;
+        }
+        for (demand, expected) in long.friction_demand.iter().zip(&short.friction_demand).filter(|(_, own)| **own < 1.0)
+        {
+            compared += 1;
+            worst = worst.max((demand / expected - 1.0).abs());
+        }
+    }
+    println!("{compared} demands of {columns} columns, off by up to {worst:.1e}");
+    assert!(compared > columns && worst < 8e-4, "{compared} demands, off by up to {worst}");
 }
 
 /// The column is past the point of no return from 1.168 s on: until then the second block swings over its balance and comes back, within one closed-form
@@ -74,7 +111,8 @@ fn the_point_of_no_return_is_found_within_long_swings() {
     "#;
     for method in [Method::Auto, Method::Taylor, Method::KuttaMerson] {
         let validity = run(text, method).validity.expect("recorded");
-        assert!((validity.until - 1.16801).abs() < 1e-4, "{method:?}: {}", validity.until);
+        // As the other methods print them, to their last digits.
+        assert!((validity.until - 1.16801).abs() < 1e-5, "{method:?}: {}", validity.until);
         let normal = validity.contacts[1].min_normal_force.value;
         assert!((normal - 22.55).abs() < 0.01, "{method:?}: {normal}");
     }

@@ -17,7 +17,7 @@ const WIDTH_ROUNDING: f64 = 1e-12;
 const NO_FORCE: f64 = 1e-10;
 
 /// Share of a coefficient below which a demand is examined with finer panels. Demands of forces that are parabolas over a panel were found to be off by up to
-/// 5e-4, most where vertical motion nearly cancels gravity.
+/// 6e-4, most where vertical motion nearly cancels gravity (`tests/validity.rs`).
 const NARROW: f64 = 2e-3;
 
 /// Number of panels of the finer ones in each: what parabolas leave out falls with the third power.

@@ -140,7 +140,7 @@ impl Needs {
         self.last_end = end;
     }
 
-    /// Follows which blocks pass their balance, and which come back, between two times of a stretch between which no block turns `[s]`.
+    /// Follows which blocks pass their balance, and which come back, in a part of a stretch `[s]` within which no block turns.
     fn follow_balances(&mut self, inside: &mut dyn Inside, start: f64, end: f64) {
         let is_past = past_balance(&inside.state_at(end).0, &self.balances);
         let mut returned: Option<f64> = None;

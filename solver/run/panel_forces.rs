@@ -6,7 +6,8 @@ use crate::mechanics::dynamics::ContactForce;
 pub(crate) struct PanelForces {
     tangential: [f64; 3],
     pub normal: [f64; 3],
-    /// Largest friction demand: of the tangential over the normal force. A parabola through demands would miss where the normal force is small.
+    /// Largest friction demand, of the tangential over the normal force. A parabola through the demands at the three places would miss its crest where the
+    /// normal force is small.
     pub largest_demand: f64,
     /// Place of that demand in the panel, 0 to 1. Where the demand is infinite, the contact presses least there.
     pub place_of_demand: f64,

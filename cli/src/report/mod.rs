@@ -24,6 +24,7 @@ use rocking::run_folder::Results;
 
 /// The page of a run.
 pub fn page(results: &Results) -> String {
+    let figures = plot::figures(results, &plot::Paper::default());
     // A scene without a title has the name of its file.
     let file = results.scene.file.file_name().map(|name| name.to_string_lossy());
     let title = if results.title.is_empty() { file.as_deref().unwrap_or("A run of rocking") } else { &results.title };
@@ -40,7 +41,7 @@ pub fn page(results: &Results) -> String {
         ("validity", validity::details(results)),
         ("readout", readout(results)),
         ("player-notes", frames::notes(results)),
-        ("figures", plot::figures(results, &plot::Paper::default()).iter().map(embedded).collect()),
+        ("figures", figures.iter().map(|each| embedded(each.name, &each.caption, &each.svg)).collect()),
         ("inputs", inputs::inputs(results)),
         ("provenance", provenance::provenance(results)),
         ("css", include_str!("page.css").into()),
@@ -71,11 +72,25 @@ fn readout(results: &Results) -> String {
 }
 
 /// A figure of the page with its caption.
-fn embedded(figure: &plot::Figure) -> String {
-    let plot::Figure { name, svg, .. } = figure;
-    let caption = escape(&figure.caption);
+fn embedded(name: &str, caption: &str, svg: &str) -> String {
+    let caption = escape(caption);
     format!(
         "<figure id=\"figure-{name}\">\n<div class=\"paper\" tabindex=\"0\" role=\"group\" aria-label=\"{caption}\">{svg}</div>\n\
          <figcaption>{caption}</figcaption>\n</figure>\n"
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_are_embedded_with_their_captions() {
+        let text = embedded("one", "a < b", "<svg></svg>");
+        assert!(text.starts_with("<figure id=\"figure-one\">") && text.ends_with("</figure>\n"), "{text}");
+        assert!(
+            text.contains("<figcaption>a &lt; b</figcaption>") && text.contains("aria-label=\"a &lt; b\""),
+            "{text}"
+        );
+    }
 }

@@ -22,7 +22,8 @@ pub fn legend(panels: &[Vec<Class>], areas: &[f64], least: Option<(Stroke, &str)
         let share = percent(share(panels, areas, |found| found == class));
         (Key::Fill(class.fill()), format!("{}, {share}", class.name()))
     };
-    let (lost, others): (Vec<Class>, Vec<Class>) = Class::all().rev().filter(shown).partition(|class| class.is_lost());
+    let (lost, others): (Vec<Class>, Vec<Class>) =
+        Class::ALL.into_iter().rev().filter(shown).partition(|class| class.is_lost());
     let mut entries: Vec<_> = others.into_iter().rev().map(entry).collect();
     if !lost.is_empty() {
         entries.extend(least.map(|(stroke, loses)| (Key::Line(stroke), format!("least that {loses}"))));

@@ -23,39 +23,48 @@ pub enum Class {
     Error,
 }
 
-/// All classes in the order of the enum, with their fills and names. Fills are Okabe and Ito's hues on a scale of lightness, the darker the more violent:
-/// 100, 87, 72, 58, 41 and 12 of 100.
-const LOOKS: [(Class, &str, &str); 11] = [
-    (Class::NoUplift, "#ffffff", "no uplift"),
-    (Class::Slides, "#e9efdc", "slides and stands"),
-    (Class::Rocks, "#cfdde9", "rocks and stands"),
-    (Class::Overturns, "#0065a0", "(impacts not counted)"),
-    (Class::AfterMore, "#e6a52c", "after 3 impacts or more"),
-    (Class::AfterTwo, "#dd6a12", "after 2 impacts"),
-    (Class::AfterOne, "#0065a0", "after 1 impact"),
-    (Class::AtOnce, "#1f1b2e", "without impact"),
-    (Class::Collapses, "#7a1f3d", "collapses: a block slides off"),
-    (Class::NotDetermined, "#f4edc9", "not determined (hatched)"),
-    (Class::Error, "#f3d6e4", "no result (hatched)"),
-];
-
 impl Class {
     /// All classes, in the order of the enum.
-    pub fn all() -> impl DoubleEndedIterator<Item = Class> {
-        LOOKS.into_iter().map(|(class, ..)| class)
+    pub const ALL: [Class; 11] = [
+        Class::NoUplift,
+        Class::Slides,
+        Class::Rocks,
+        Class::Overturns,
+        Class::AfterMore,
+        Class::AfterTwo,
+        Class::AfterOne,
+        Class::AtOnce,
+        Class::Collapses,
+        Class::NotDetermined,
+        Class::Error,
+    ];
+
+    /// Fill and name. Fills are Okabe and Ito's hues on a scale of lightness, the darker the more violent: 100, 87, 72, 58, 41 and 12 of 100. The name of a
+    /// class that overturns goes on from the word.
+    fn look(self) -> [&'static str; 2] {
+        match self {
+            Class::NoUplift => ["#ffffff", "no uplift"],
+            Class::Slides => ["#e9efdc", "slides and stands"],
+            Class::Rocks => ["#cfdde9", "rocks and stands"],
+            Class::Overturns => ["#0065a0", "(impacts not counted)"],
+            Class::AfterMore => ["#e6a52c", "after 3 impacts or more"],
+            Class::AfterTwo => ["#dd6a12", "after 2 impacts"],
+            Class::AfterOne => ["#0065a0", "after 1 impact"],
+            Class::AtOnce => ["#1f1b2e", "without impact"],
+            Class::Collapses => ["#7a1f3d", "collapses: a block slides off"],
+            Class::NotDetermined => ["#f4edc9", "not determined (hatched)"],
+            Class::Error => ["#f3d6e4", "no result (hatched)"],
+        }
     }
 
-    fn look(self) -> (Class, &'static str, &'static str) {
-        LOOKS.into_iter().find(|(class, ..)| *class == self).expect("every class is in the list")
-    }
-
+    /// Colour of its cells.
     pub fn fill(self) -> &'static str {
-        self.look().1
+        self.look()[0]
     }
 
-    /// Name in the legend; that of a class that overturns goes on from the word.
+    /// Name in the legend.
     pub fn name(self) -> &'static str {
-        self.look().2
+        self.look()[1]
     }
 
     /// The class of a row.

@@ -35,7 +35,7 @@ pub fn draw(points: &Points, family: &Family, paper: &Paper) -> Figure {
         let frame = Frame { left: EDGE, top: heading + number as f64 * (HEIGHT + heading), width, height: HEIGHT };
         let place = Place { frame, x: &x, y: &one, top_name: "" };
         // Of several points at one position, the most violent class is drawn. Both positions rise.
-        let order = |class: &Class| Class::all().position(|own| own == *class);
+        let order = |class: &Class| Class::ALL.iter().position(|own| own == class);
         let mut own = rows[number][0].iter().map(|(position, row)| (*position, points.classes[*row])).peekable();
         let mut at = |value: f64| {
             let here = std::iter::from_fn(|| own.next_if(|(position, _)| *position <= value));
