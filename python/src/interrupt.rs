@@ -7,6 +7,7 @@ use pyo3::exceptions::{PyMemoryError, PyOSError, PyValueError};
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::ops::{ControlFlow, Range};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
@@ -65,7 +66,31 @@ fn pool(threads: usize) -> PyResult<ThreadPool> {
     ThreadPoolBuilder::new().num_threads(threads).build().map_err(|failed| PyOSError::new_err(failed.to_string()))
 }
 
-/// The results for all indices of a range, in order. Each thread makes its own with what `worker` returns; a signal ends them after those under way.
+/// Whether a signal has ended a computation; copies tell the same.
+#[derive(Clone, Default)]
+pub struct Ended(Arc<AtomicBool>);
+
+impl Ended {
+    /// What a function of progress returns.
+    pub fn progress(&self) -> ControlFlow<()> {
+        match self.0.load(Ordering::Relaxed) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    }
+
+    /// Checks for signals and keeps whether one has ended the computation.
+    fn poll(&self, signals: &mut Signals) -> ControlFlow<()> {
+        let polled = signals.poll();
+        if polled.is_break() {
+            self.0.store(true, Ordering::Relaxed);
+        }
+        polled
+    }
+}
+
+/// The results for all indices of a range, in order. Each thread makes its own with what `worker` returns. When a signal has ended the computation, no
+/// further result is begun, and those under way see it in the argument of `worker`.
 ///
 /// # Errors
 /// What a handler of signals raised. `MemoryError` for more results than the memory has room for, `ValueError` for too many threads, `OSError` if there is
@@ -74,9 +99,9 @@ pub fn in_order<T: Send, W: FnMut(usize) -> T>(
     py: Python<'_>,
     range: Range<usize>,
     threads: usize,
-    worker: impl Fn() -> W + Sync,
+    worker: impl Fn(Ended) -> W + Sync,
 ) -> PyResult<Vec<T>> {
-    let (pool, mut made, mut signals) = (pool(threads)?, Vec::new(), Signals::new());
+    let (pool, mut made, mut signals, ended) = (pool(threads)?, Vec::new(), Signals::new(), Ended::default());
     made.try_reserve_exact(range.len()).map_err(|_| {
         PyMemoryError::new_err(format!(
             "{} rows do not fit into the memory; give `start` and `stop` of a part (as Sweep.shard has), or write them with rocking.dask.to_parquet",
@@ -84,41 +109,37 @@ pub fn in_order<T: Send, W: FnMut(usize) -> T>(
         ))
     })?;
     py.detach(|| {
-        rocking::in_order(&pool, range, &worker, |results| {
-            made.extend(results);
-            signals.poll()
-        });
+        rocking::in_order(
+            &pool,
+            range,
+            || worker(ended.clone()),
+            |results| {
+                made.extend(results);
+                ended.poll(&mut signals)
+            },
+        );
     });
     signals.finish()?;
     Ok(made)
 }
 
-/// What `work` returns, on as many threads as the machine has. `work` is told by its argument when a signal has ended it.
+/// What `work` returns, on as many threads as the machine has. Its argument shows when a signal has ended it.
 ///
 /// # Errors
 /// What a handler of signals raised. `OSError` if there is no pool.
-pub fn on_all_threads<T: Send>(
-    py: Python<'_>,
-    work: impl FnOnce(&(dyn Fn() -> ControlFlow<()> + Sync)) -> T + Send,
-) -> PyResult<T> {
-    let (pool, mut signals, is_ended) = (pool(0)?, Signals::new(), AtomicBool::new(false));
-    let progress = || match is_ended.load(Ordering::Relaxed) {
-        true => ControlFlow::Break(()),
-        false => ControlFlow::Continue(()),
-    };
+pub fn on_all_threads<T: Send>(py: Python<'_>, work: impl FnOnce(&Ended) -> T + Send) -> PyResult<T> {
+    let (pool, mut signals, ended) = (pool(0)?, Signals::new(), Ended::default());
     let done = py.detach(|| {
         std::thread::scope(|scope| {
             let (running, finished) = channel::<()>();
-            let (pool, progress) = (&pool, &progress);
+            let (pool, ended) = (&pool, &ended);
             let work = scope.spawn(move || {
                 // Dropped when the work ends, by a panic too: that ends the loop below.
                 let _running = running;
-                pool.install(|| work(progress))
+                pool.install(|| work(ended))
             });
             while finished.recv_timeout(INTERVAL) == Err(RecvTimeoutError::Timeout) {
-                if signals.poll().is_break() {
-                    is_ended.store(true, Ordering::Relaxed);
-                }
+                let _ = ended.poll(&mut signals);
             }
             work.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
         })

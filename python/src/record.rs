@@ -225,7 +225,7 @@ impl Record {
             )));
         }
         let values =
-            in_order(py, 0..periods.len(), 0, || |place| self.record.spectral_acceleration(periods[place], damping))?;
+            in_order(py, 0..periods.len(), 0, |_| |place| self.record.spectral_acceleration(periods[place], damping))?;
         Ok(values.into_pyarray(py))
     }
 

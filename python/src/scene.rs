@@ -32,8 +32,9 @@ struct Pickled<S, O> {
 
 /// Runs the companions of a run and returns what they say.
 fn follow(py: Python<'_>, scene: &rocking::Scene, response: &rocking::Response) -> PyResult<Trust> {
-    let followed =
-        on_all_threads(py, |progress| follow_run_observed(scene, response, TrustOptions::default(), |_| progress()))?;
+    let followed = on_all_threads(py, |ended| {
+        follow_run_observed(scene, response, TrustOptions::default(), |_| ended.progress())
+    })?;
     followed.map_err(|failed| error::solve(py, &failed))
 }
 

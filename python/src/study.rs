@@ -161,7 +161,7 @@ impl Ida {
     /// The table of a range of runs, as a list of columns.
     fn table<'py>(&self, py: Python<'py>, start: usize, stop: usize, threads: usize) -> PyResult<Bound<'py, PyList>> {
         let range = range(start, stop, self.ida.len())?;
-        let runs = in_order(py, range, threads, || self.ida.worker())?;
+        let runs = in_order(py, range, threads, |ended| self.ida.worker_observed(move |_| ended.progress()))?;
         let scales = runs.iter().map(|run| run.scale).collect();
         let levels = runs.iter().map(|run| run.level).collect();
         let indices = runs.iter().map(|run| run.index as i64).collect();
@@ -307,7 +307,7 @@ pub fn fragility(
         })
     };
     options.layout = layout.map(named).transpose()?;
-    let found = on_all_threads(py, |progress| Fragility::of_observed(&runs, state, &options, progress))?;
+    let found = on_all_threads(py, |ended| Fragility::of_observed(&runs, state, &options, || ended.progress()))?;
     let found = found.expect("a resampling that no signal has ended has a result");
     Ok((serde_json::to_string(&found).map_err(error::unwritable)?, found.statements()))
 }

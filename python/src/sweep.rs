@@ -94,8 +94,8 @@ impl Sweep {
     fn table<'py>(&self, py: Python<'py>, start: usize, stop: usize, threads: usize) -> PyResult<Bound<'py, PyList>> {
         let range = range(start, stop, self.sweep.len())?;
         let fields = self.sweep.fields().map_err(|refused| error::scene(py, &refused))?;
-        let results = in_order(py, range.clone(), threads, || {
-            let mut row = self.sweep.worker();
+        let results = in_order(py, range.clone(), threads, |ended| {
+            let mut row = self.sweep.worker_observed(move |_| ended.progress());
             move |index| row(index).result
         })?;
         into_python(py, py.detach(|| self.columns(range, &results, &fields)))

@@ -89,6 +89,9 @@ CALLS = {
     "study": "rk.ida(scene, rk.synthetic(range(2000), duration=8.0), 'pgv', [x / 500 for x in range(1, 3000)])",
     "sweep whose runs differ": "rk.sweep(scene.replace(t_end=10, output_dt=1.0, method='rk4'),"
     " {'step': [1e-3, 1e-6], 'amplitude_g': {'from': 0.2, 'to': 0.3, 'steps': 1000}}, ask='peaks')",
+    "sweep of long runs": "rk.sweep(scene.replace(method='rk4', step=1e-8), {'amplitude_g': [0.2, 0.3]})",
+    "companions of a sweep": "rk.sweep(scene.replace(t_end=2, method='rk4', step=3e-6), {'amplitude_g': [0.2, 0.3]}, ask='trust')",
+    "study of long runs": "rk.ida(scene.replace(method='rk4', step=1e-8), rk.synthetic(range(2), duration=8.0), 'pgv', [0.6, 0.7])",
     "bands": "rk.Study(pd.DataFrame({'record': [str(i // 12) for i in range(240)], 'pgv': [0.1 * (1 + i % 12) for i in range(240)],"
     " 'outcome': ['overturns' if (i * 7) % 12 < i % 12 else 'rocks' for i in range(240)]})).fragility(replicates=1_000_000)",
     "spectrum": "rk.Record.synthetic(1, duration=400.0, dt=0.005).spectrum([0.02 * 1.001**x for x in range(6000)])",

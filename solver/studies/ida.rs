@@ -12,12 +12,12 @@ use crate::response::Fate;
 use crate::response::{EventKind, Response};
 use crate::run::{Simulator, SolveError};
 use crate::scene::{Scene, SceneErrors, Wanted};
-use crate::trust::{TrustOptions, follow_run};
+use crate::trust::{TrustOptions, follow_run_observed};
 use rayon::prelude::*;
 use rocking_codegen::pattern::Pattern;
 use rocking_ground::{Excitation, Motion, Record, RecordError};
 use std::collections::HashSet;
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 
 /// Components of one record.
 #[derive(Clone, Debug, PartialEq)]
@@ -344,8 +344,17 @@ impl Ida {
     /// # Panics
     /// If there is no such run.
     pub fn worker(&self) -> impl FnMut(usize) -> IdaRun {
+        self.worker_observed(|_| ControlFlow::Continue(()))
+    }
+
+    /// As [`Ida::worker`], with a function that is called with the present time `[s]` of each run, from several threads where runs have companions. Where it
+    /// returns [`ControlFlow::Break`], the run ends, with the error [`SolveError::Cancelled`] as its result.
+    ///
+    /// # Panics
+    /// If there is no such run.
+    pub fn worker_observed(&self, progress: impl Fn(f64) -> ControlFlow<()> + Sync) -> impl FnMut(usize) -> IdaRun {
         let mut simulator = if self.records_gaps() { Simulator::recording_gaps() } else { Simulator::new() };
-        move |index| self.run(&mut simulator, index)
+        move |index| self.run(&mut simulator, &progress, index)
     }
 
     /// Whether runs record their largest gaps. With friction, and with initial angles or rates, gaps come from rows.
@@ -359,17 +368,22 @@ impl Ida {
         self.is_followed || !self.records_gaps()
     }
 
-    fn run(&self, simulator: &mut Simulator, index: usize) -> IdaRun {
+    fn run(
+        &self,
+        simulator: &mut Simulator,
+        progress: &(impl Fn(f64) -> ControlFlow<()> + Sync),
+        index: usize,
+    ) -> IdaRun {
         let (record, level, scale) = self.point(index);
         let run = |mut scene: Scene| {
             if !self.needs_rows() {
                 scene.set_rows(None);
             }
             scene.check()?;
-            let response = simulator.run(&scene)?;
+            let response = simulator.run_observed(&scene, progress)?;
             let mut found = outcome(&scene, &response);
             if self.is_followed {
-                let trust = follow_run(&scene, &response, TrustOptions::VERDICT)?;
+                let trust = follow_run_observed(&scene, &response, TrustOptions::VERDICT, progress)?;
                 // A run that ended because no motion follows from the laws of contact stays undetermined, whatever its companions do.
                 if !trust.determined && found.fate != Fate::Undetermined {
                     found = open(&scene, response, trust.known_until());

@@ -13,7 +13,7 @@ use crate::run::{Simulator, SolveError};
 use crate::scene::{Scene, Wanted};
 use crate::scene_file::excitation::FILE_THAT_NAMES;
 use crate::scene_file::{SceneFileError, Setting, Template, VariedExcitation};
-use crate::trust::{TrustOptions, follow_run};
+use crate::trust::{TrustOptions, follow_run_observed};
 use crate::validity::{ContactNeeds, Validity};
 use rayon::prelude::*;
 use rocking_ground::Excitation;
@@ -247,8 +247,10 @@ fn evenly_spread(points: Range<usize>, most: usize) -> impl Iterator<Item = usiz
 const LEAST_POINTS: usize = 16;
 
 /// Runs points one after another, and reuses what a point has in common with the one before.
-struct Worker<'s> {
+struct Worker<'s, P> {
     sweep: &'s Sweep,
+    /// Called with the time of each run `[s]`; it may end the run.
+    progress: P,
     simulator: Simulator,
     varied: VariedExcitation<'s>,
     /// The scene of the last point.
@@ -261,10 +263,11 @@ struct Worker<'s> {
     is_of_ground: Vec<bool>,
 }
 
-impl<'s> Worker<'s> {
-    fn new(sweep: &'s Sweep) -> Worker<'s> {
+impl<'s, P: Fn(f64) -> ControlFlow<()> + Sync> Worker<'s, P> {
+    fn new(sweep: &'s Sweep, progress: P) -> Worker<'s, P> {
         Worker {
             sweep,
+            progress,
             simulator: Simulator::new(),
             varied: sweep.template.with_varied_excitation(sweep.axes.iter().map(|axis| axis.key.as_str())),
             scene: None,
@@ -306,10 +309,12 @@ impl<'s> Worker<'s> {
             }
         };
         // The scene is valid: it was checked when it was read.
-        let response = self.simulator.run_valid(scene, &mut |_| ControlFlow::Continue(()))?;
+        let progress = &self.progress;
+        let response = self.simulator.run_valid(scene, &mut |t| progress(t))?;
         let mut outcome = self.sweep.outcome(scene, &response);
         if self.sweep.ask == Ask::Trust {
-            outcome.determined = Some(follow_run(scene, &response, TrustOptions::VERDICT)?.determined);
+            let trust = follow_run_observed(scene, &response, TrustOptions::VERDICT, progress)?;
+            outcome.determined = Some(trust.determined);
         }
         Ok(outcome)
     }
@@ -436,7 +441,16 @@ impl Sweep {
     /// # Panics
     /// If there is no such point.
     pub fn worker(&self) -> impl FnMut(usize) -> Row {
-        let mut worker = Worker::new(self);
+        self.worker_observed(|_| ControlFlow::Continue(()))
+    }
+
+    /// As [`Sweep::worker`], with a function that is called with the present time `[s]` of each run, from several threads where points have companion runs.
+    /// Where it returns [`ControlFlow::Break`], the run ends and its row has the error [`SolveError::Cancelled`].
+    ///
+    /// # Panics
+    /// If there is no such point.
+    pub fn worker_observed(&self, progress: impl Fn(f64) -> ControlFlow<()> + Sync) -> impl FnMut(usize) -> Row {
+        let mut worker = Worker::new(self, progress);
         move |index| worker.row(index)
     }
 
