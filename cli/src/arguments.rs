@@ -235,7 +235,7 @@ pub struct Record {
     /// Channel of a file that has several, by its number.
     #[arg(long)]
     pub channel: Option<usize>,
-    /// Column of a table that holds the accelerations, by its name or its number from 1.
+    /// Column of a table that holds the accelerations, by its name or its number from 1; `all` where samples fill row after row.
     #[arg(long)]
     pub column: Option<String>,
     /// Leading lines of a table that are skipped.

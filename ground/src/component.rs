@@ -45,7 +45,7 @@ pub(crate) fn points_down(ending: &str, component: &str) -> bool {
 /// Names of a component downwards.
 const DOWN: [&str; 3] = ["DWN", "DOWN", "DN"];
 /// Endings of file names that name a vertical component.
-const VERTICAL: [&str; 9] = ["UP", "DWN", "DOWN", "VERT", "VER", "UD", "DN", "V", "Z"];
+const VERTICAL: [&str; 10] = ["UP", "DWN", "DOWN", "VERT", "VER", "UD", "DN", "U", "V", "Z"];
 /// Endings of file names that name a horizontal component.
 const HORIZONTAL: [&str; 10] = ["NS", "EW", "N", "E", "H1", "H2", "L", "T", "X", "Y"];
 
@@ -164,6 +164,7 @@ mod tests {
             ("Group.csv", "Group", "", false),
             ("DENVER_UP.csv", "DENVER", "UP", true),
             ("C12DWN.AT2", "C12", "DWN", true),
+            ("20101114_2309_RawAcc_U.asc", "20101114_2309_RawAcc", "U", true),
             ("GM_1.csv", "GM_1", "", false),
             ("GM_1V.csv", "GM_1", "V", true),
             ("GM_2.csv", "GM_2", "", false),

@@ -15,7 +15,7 @@ pub enum RecordError {
     TooShort { count: usize },
     /// The samples of a text may all be in one row.
     #[error(
-        "line {line}: {count} numbers are in the only row, and a row is one sample; write one value per line, or time and acceleration"
+        "line {line}: {count} numbers are in the only row, and a row is one sample; if they are samples, give `column` as all, else write time and acceleration"
     )]
     OneRow { line: usize, count: usize },
     /// Fewer than two samples are between two times.
@@ -87,10 +87,11 @@ pub enum RecordError {
     Namesakes { column: String, numbers: String },
     /// The file begins with neither a known header nor numbers.
     #[error(
-        "line {line}, column {column}: `{text}` is no number, and the file begins like none of the known formats; skip the \
-         lines before the numbers with `skip_rows`, or give a file of PEER (AT2), ESM, K-NET, CSMIP, COSMOS or a table"
+        "line {line}, column {column}: `{text}` is no number, and the file begins like none of the known formats; {}, or give a file of PEER (AT2), \
+         ESM, K-NET, CSMIP, COSMOS or a table",
+        header_end(*first_row)
     )]
-    NoTable { line: usize, column: usize, text: String },
+    NoTable { line: usize, column: usize, text: String, first_row: Option<usize> },
     /// A row has another number of columns than the first row.
     #[error(
         "line {line}: {found} column(s) where the first row has {expected}; use one column, or time and acceleration{}",
@@ -107,7 +108,8 @@ pub enum RecordError {
     Uneven { line: usize, time: f64, step: f64, usual: f64 },
     /// Most times of a table are not above the time of the row before.
     #[error(
-        "line {line}: time {time} s is not above the one of the row before; sort the rows by time, the earliest first"
+        "line {line}: time {time} s is not above the one of the row before; sort the rows by time, the earliest first, or give `dt` if times have too few \
+         digits"
     )]
     Falling { line: usize, time: f64 },
     /// The steps of the times of a table are usual ones, but add up to a drift.
@@ -146,7 +148,17 @@ fn microseconds(seconds: &f64) -> f64 {
 }
 
 /// What to do with a record that has no columns: its samples fill row after row.
-const WRAPPED: &str = "; samples that fill row after row need one value per line, or the header of an AT2 file (`NPTS= 4000, DT= .01 SEC`)";
+const WRAPPED: &str = "; if samples fill row after row, give `column` as all";
+
+/// What to do with lines before the numbers, which begin in the line `first_row`, if that is known.
+fn header_end(first_row: Option<usize>) -> String {
+    match first_row {
+        Some(line) => {
+            format!("skip the {} line(s) before the numbers, which begin in line {line}, with `skip_rows`", line - 1)
+        }
+        None => "mend it, or skip the lines before the numbers with `skip_rows`".into(),
+    }
+}
 
 /// The remedy for columns that have no names, but numbers.
 fn wrapped(known: &str) -> &'static str {

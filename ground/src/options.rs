@@ -11,14 +11,15 @@ pub struct TextOptions {
     pub dt: Option<f64>,
     /// Unit of the accelerations.
     pub units: Option<AccelerationUnit>,
-    /// Whether a file with fewer samples than it declares, with another peak than it states, or with two units or sampling intervals, is read
-    /// with a warning instead of an error; default false.
+    /// Whether a file with fewer samples than it declares, with another peak than it states, with two units or sampling intervals, or with times that have too
+    /// few digits for `dt`, is read with a warning instead of an error; default false.
     pub lenient: bool,
     /// Channel to read from a file with several: the number that the file gives it, else its place from 1. Default: the first channel.
     pub channel: Option<usize>,
     /// Lines skipped at the beginning of a table; default 0.
     pub skip_rows: usize,
-    /// Column of the accelerations in a table: its name, else its number from 1. Default: the only column that can be the acceleration.
+    /// Column of the accelerations in a table: its name, else its number from 1; `all` where samples fill row after row. Default: the only column that can be the
+    /// acceleration.
     pub column: Option<String>,
 }
 

@@ -225,22 +225,94 @@ fn a_record_that_ends_while_the_ground_shakes_has_a_warning() {
     assert_eq!(ending(90, -0.5), [""; 0]);
 }
 
+/// Rows of so many samples; the last row may be shorter.
+fn wrapped(columns: usize) -> String {
+    let row = |row: &[f64]| row.iter().map(|sample| format!(" {sample:8.4}")).collect::<String>() + "\n";
+    samples().chunks(columns).map(row).collect()
+}
+
 #[test]
-fn wrapped_rows_are_named_where_columns_are_unclear() {
-    let rows = |columns: usize| {
-        "0.1 -0.2 0.3 0.2 -0.1 ".repeat(4).split_whitespace().collect::<Vec<_>>().chunks(columns).fold(
-            String::new(),
-            |mut text, row| {
-                let _ = writeln!(text, "{}", row.join(" "));
-                text
-            },
-        )
-    };
-    for columns in [2, 5, 8] {
-        let error = refused(&rows(columns), &in_g());
-        assert!(error.contains("one value per line, or the header of an AT2 file"), "{columns}: {error}");
+fn samples_that_fill_row_after_row_are_read_as_all_columns() {
+    let all = TextOptions { column: Some("all".into()), dt: Some(0.01), ..in_g() };
+    for columns in [1, 2, 5, 8, 20] {
+        if columns > 1 {
+            let error = refused(&wrapped(columns), &TextOptions { column: None, ..all.clone() });
+            assert!(error.contains("samples") && error.ends_with("give `column` as all") || columns == 20, "{error}");
+        }
+        assert!(agrees(&read(&wrapped(columns), &all), G, 0.01), "{columns}");
+        // Interval and unit may stand above the samples, and names of columns are none.
+        let header =
+            format!("#20 points at equal spacing\nEl Centro, 1940\nDT= 0.01, UNITS=g\nvalues\n{}", wrapped(columns));
+        let named = TextOptions { column: Some("ALL".into()), ..options() };
+        assert!(agrees(&read(&header, &named), G, 0.01), "{columns}");
     }
-    assert_eq!(read(&format!("A\nB\nIN UNITS OF G\nNPTS= 20, DT= .01\n{}", rows(8)), &options()).accel.len(), 20);
+    assert!(agrees(&read(&format!("A\nB\nIN UNITS OF G\nNPTS= 20, DT= .01\n{}", wrapped(8)), &options()), G, 0.01));
+    // A row that is too short within the file is damaged.
+    let error = refused(&wrapped(8).replacen(" 0.2381", "", 1), &all);
+    assert!(error.starts_with("line 2: 7 column(s) where the first row has 8"), "{error}");
+    // A column of that name is one column.
+    let column = read(&table("time (s),all (g)", seconds), &TextOptions { column: Some("all".into()), ..options() });
+    assert!(agrees(&column, G, 0.01));
+    // One of many numbers a row, though possible, is likely a mistake; one of three components is not.
+    let warned = |columns: usize| {
+        let whole: String =
+            wrapped(columns).lines().filter(|row| row.len() == 9 * columns).fold(String::new(), |mut text, row| {
+                let _ = writeln!(text, "{row}");
+                text
+            });
+        read(&whole, &TextOptions { column: Some("1".into()), ..all.clone() }).warnings
+    };
+    assert_eq!(warned(3), [""; 0]);
+    let text = "number 1 of the 5 in each row is read; if samples fill row after row, give `column` as all";
+    assert_eq!(warned(5), [text]);
+}
+
+/// Lines that begin with a word are a header, whatever numbers they have; what may be a misspelt number is none.
+#[test]
+fn headers_may_have_numbers() {
+    for header in [
+        "DT= 0.01",
+        "Time Step: 0.005\nDT= 0.01",
+        "EARTHQUAKE DATE : 2017/07/20 22:31:09\nMAGNITUDE : 6.5 Mw\nDT= 0.01 SEC\nN-S",
+        "Acceleration [g]\nDT= 0.01",
+    ] {
+        assert!(agrees(&read(&table(header, value), &in_g()), G, 0.01), "{header}");
+    }
+    let two = table("Kobe, station 7, 1995", seconds);
+    assert!(agrees(&read(&two, &in_g()), G, 0.01));
+    for first in ["nan", "inf", "****"] {
+        let error = refused(&table(first, value), &TextOptions { dt: Some(0.01), ..in_g() });
+        assert!(error.starts_with(&format!("line 1, column 1: `{first}` is no number")), "{error}");
+        assert!(
+            error.contains("skip the 1 line(s) before the numbers, which begin in line 2, with `skip_rows`"),
+            "{error}"
+        );
+    }
+    let long = table("065JZC120103\n0120103153957 2012-01-03 BTM\nATUSHI EARTHQUAKE\n\n# remark", value);
+    assert!(refused(&long, &in_g()).contains("skip the 5 line(s) before the numbers, which begin in line 6"));
+    // Rows that are all alike have no header.
+    let backslashes: String = samples().iter().fold(String::new(), |text, sample| text + &format!("{sample}\\\n"));
+    assert!(refused(&backslashes, &in_g()).contains("; mend it, or skip the lines before the numbers"));
+}
+
+/// Times of two decimals every 0.005 s: without `dt` there is no interval, with it the times contradict it by up to two of them, which is taken on request.
+#[test]
+fn times_with_too_few_digits_are_left_out_on_request() {
+    let rounded = |k: usize, a: f64| format!("{:.2} {a}", (0.5 * k as f64).round() / 100.0);
+    let cut = |k: usize, a: f64| format!("{:.2} {a}", (k / 2) as f64 / 100.0);
+    for (row, without) in [
+        (&rounded as &dyn Fn(usize, f64) -> String, "give `dt` if times are rounded"),
+        (&cut, "give `dt` if times have too few digits"),
+    ] {
+        let text: String = samples().into_iter().enumerate().map(|(k, a)| row(k, a) + "\n").collect();
+        assert!(refused(&text, &in_g()).ends_with(without));
+        let given = TextOptions { dt: Some(0.005), ..in_g() };
+        let error = refused(&text, &given);
+        assert!(error.ends_with("times have too few digits, leave them out with `lenient`"), "{error}");
+        let file = read(&text, &TextOptions { lenient: true, ..given });
+        assert!(agrees(&file, G, 0.005) && file.warnings.len() == 1, "{file:?}");
+        assert!(file.warnings[0].contains("intervals of 0.005 s off its place"), "{file:?}");
+    }
 }
 
 #[test]

@@ -571,7 +571,7 @@ fn tables_are_refused_where_they_leave_a_choice_or_are_uneven() {
     let twice = error("t, a, a\n0, 1, 2\n0.1, 2, 3\n", &TextOptions { column: Some("a".into()), ..g.clone() });
     assert!(twice.contains("several columns are called `a`") && twice.contains("`column`: 2 or 3"), "{twice}");
     let title = error(&text("table/skip-rows.txt"), &g);
-    assert!(title.contains("skip_rows") && title.contains("line 1, column 1: `Invented`"), "{title}");
+    assert!(title.contains("skip_rows") && title.contains("line 2: 42 is the number of the rows below it"), "{title}");
     for (text, part) in [
         ("0 1\n0.1 1\n0.25 1\n0.3 1\n", "line 3: time 0.25 s comes 0.15 s after the one above, most come 0.1 s"),
         ("0 1\n0.1 1\n0.1 1\n", "line 3"),
@@ -587,7 +587,7 @@ fn tables_are_refused_where_they_leave_a_choice_or_are_uneven() {
         ("# nothing\n0 1\n", "1 sample(s)"),
         (
             "# a remark\n0.1 0.2 0.3 0.2\n",
-            "line 2: 4 numbers are in the only row, and a row is one sample; write one value per line",
+            "line 2: 4 numbers are in the only row, and a row is one sample; if they are samples, give `column` as all",
         ),
         ("t [s], v [m/s]\n0, 1\n0.1, 2\n", "`m/s` of column `v`"),
         ("time (frames), a [g]\n0, 1\n1, 2\n", "line 1: `frames` of column `time` is no unit of time"),

@@ -7,13 +7,13 @@ use schemars::JsonSchema;
 /// How a record file is read.
 #[derive(JsonSchema)]
 pub struct Reading {
-    /// accept a file with fewer samples than it declares, another peak than it states, or two units or intervals
+    /// accept a file with fewer samples than it declares, another peak than it states, two units or intervals, or times with too few digits for `dt`
     #[schemars(extend("x-default" = "false"))]
     pub lenient: Option<bool>,
     /// channel of a file that has several
     #[schemars(range(min = 1), extend("x-default" = "the first; with a warning where there are several"))]
     pub channel: Option<u32>,
-    /// column of a text table with the accelerations: its name, or its number from 1
+    /// column of a text table with the accelerations: its name, its number from 1, or `all` where samples fill row after row
     #[schemars(extend("x-default" = "found by itself"))]
     pub column: Option<NameOrNumber>,
     /// lines at the head of a text table that are not read

@@ -123,9 +123,18 @@ pub fn leading_number(text: &str) -> Option<f64> {
     })
 }
 
-/// Seconds from an epoch to a date and time whose digits are in the order of `20010304_050610.120` or `2001/03/04 05:06:10`. Only differences
-/// between such times have a meaning.
+/// Seconds from an epoch to a date and time: `20010304_050610.120`, `2001/03/04 05:06:10` or, with the day first, `04/03/2001 05:06:10`. Only
+/// differences between such times have a meaning.
 pub fn seconds_of(date: &str) -> Option<f64> {
+    let mut runs = date.split(|c: char| !c.is_ascii_digit()).filter(|run| !run.is_empty());
+    let day_first = match [runs.next(), runs.next(), runs.next()] {
+        [Some(day), Some(month), Some(year)] if day.len() <= 2 && year.len() == 4 => {
+            let (_, time) = date.split_once(year)?;
+            Some(format!("{year}{month:0>2}{day:0>2}{time}"))
+        }
+        _ => None,
+    };
+    let date = day_first.as_deref().unwrap_or(date);
     let digits: String = date.chars().filter(|c| c.is_ascii_digit() || *c == '.').collect();
     let whole = |from: usize, to: usize| digits.get(from..to)?.parse::<i64>().ok();
     let (year, month, day) = (whole(0, 4)?, whole(4, 6)?, whole(6, 8)?);
@@ -194,6 +203,8 @@ mod tests {
         assert_eq!(between("20000228_235959.5", "20000229_000000.5"), Some(1.0));
         assert_eq!(between("20000229_235959.5", "20000301_000000.5"), Some(1.0));
         assert_eq!(between("20011231_235959.5", "20020101_000000.5"), Some(1.0));
+        assert_eq!(between("14/11/2010 23:59:59.500", "15/11/2010 00:00:00.500"), Some(1.0));
+        assert_eq!(between("4/3/2001 05:06:10", "20010304_050611.000"), Some(1.0));
         assert_eq!(seconds_of("no time"), None);
     }
 

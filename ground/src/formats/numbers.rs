@@ -176,13 +176,14 @@ const LONGEST_QUOTE: usize = 40;
 pub fn is_text(row: &str) -> bool {
     // Words whose only letters are those of exponents may be numbers that touch.
     let has_letters = row.contains(|c: char| c.is_alphabetic() && !"eEdD".contains(c));
-    let is_no_number = |word: Word| {
-        // A printed `nan`, `inf` or `****` is not text: it must be refused, not skipped.
-        let lower = word.text.trim_start_matches(['+', '-']).to_ascii_lowercase();
-        let undefined = ["nan", "inf", "infinity"].contains(&lower.as_str()) || lower.starts_with('*');
-        !undefined && glued(word.text, &mut Vec::new()).is_none()
-    };
+    let is_no_number = |word: Word| !is_undefined(word.text) && glued(word.text, &mut Vec::new()).is_none();
     has_letters && words(row).all(is_no_number)
+}
+
+/// Whether a word is a printed `nan`, `inf` or `****`. It is not text: it must be refused, not skipped.
+pub fn is_undefined(word: &str) -> bool {
+    let lower = word.trim_start_matches(['+', '-']).to_ascii_lowercase();
+    ["nan", "inf", "infinity"].contains(&lower.as_str()) || lower.starts_with('*')
 }
 
 /// Whether a line has no samples: it is blank or text.

@@ -126,11 +126,13 @@ class Record:
         dt : float
             Sampling interval [s] of a table without times.
         lenient : bool
-            Whether a file with fewer samples than it declares, another peak than it states, or two units or intervals is accepted, with a warning.
+            Whether a file with fewer samples than it declares, another peak than it states, two units or intervals, or times
+            with too few digits for ``dt`` is accepted, with a warning.
         channel : int
             Number of the channel, from 1, of a file that has several; the first one, with a warning, unless given.
         column : str or int
-            Column of a table with the accelerations: its name, or its number from 1; found by itself unless given.
+            Column of a table with the accelerations: its name, its number from 1, or ``all`` where samples fill row after row; found by itself
+            unless given.
         skip_rows : int
             Lines at the head of a table that are not read.
         gravity : float

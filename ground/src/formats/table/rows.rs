@@ -1,0 +1,267 @@
+//! From the lines of a table to rows of numbers, names of columns, and what the text above the numbers states.
+//!
+//! Blanks, tabs, commas and semicolons separate the columns. If others than commas do, commas may be decimal points. Text above the numbers is a header: the
+//! last line of it, unless it has numbers, names the columns.
+
+use super::super::header::Entry;
+use super::super::heading::{Heading, headings};
+use super::super::numbers::{Word, is_text, is_undefined, number, refused, split, words};
+use super::super::statement::{self, HEADER_LINES, names_count};
+use super::ALL;
+use crate::error::RecordError;
+use crate::options::TextOptions;
+use crate::unit::AccelerationUnit;
+
+/// The rows of a table. Samples that fill row after row are rows of one column.
+pub struct Rows {
+    /// Line of the headings, from 1, and the heading of each column. The list is empty for a table without headings.
+    pub headings: (usize, Vec<Heading>),
+    /// Line of each row, from 1.
+    pub lines: Vec<usize>,
+    /// Numbers, row by row.
+    values: Vec<f64>,
+    /// Number of columns.
+    pub columns: usize,
+    /// Whether the samples filled row after row, so that each number is a row of one column.
+    pub fills_rows: bool,
+    /// Lines, from 1, and units that the text above the numbers states, the headings excepted.
+    pub stated_units: Vec<(usize, AccelerationUnit)>,
+    /// Lines, from 1, and sampling intervals `[s]` that the text above the numbers states.
+    pub stated_intervals: Vec<(usize, f64)>,
+}
+
+impl Rows {
+    /// Reads the rows, the headings, and what the text above them states.
+    pub fn read(lines: &[&str], options: &TextOptions) -> Result<Rows, RecordError> {
+        let body: Vec<(usize, &str)> = lines
+            .iter()
+            .enumerate()
+            .skip(options.skip_rows)
+            .map(|(index, line)| (index + 1, without_remark(line)))
+            .filter(|(_, line)| words(line).next().is_some())
+            .collect();
+        let first = first_row(&body)?;
+        let above = first.checked_sub(2).map(|place| body[place].1);
+        let last_text = first.checked_sub(1).map(|last| body[last]).filter(|(_, text)| is_text(text));
+        let headings = last_text.map(|(line, text)| (line, headings(text, above)));
+        let has_all = |(_, names): &(usize, Vec<Heading>)| names.iter().any(|heading| is_all(&heading.name));
+        let fills_rows = options.column.as_deref().is_some_and(is_all) && !headings.as_ref().is_some_and(has_all);
+        let mut rows =
+            numbers(&body[first..], headings.as_ref().map_or(0, |(_, headings)| headings.len()), fills_rows)?;
+        let header = options.skip_rows..rows.lines[0] - 1;
+        if !fills_rows {
+            rows.headings = headings
+                .filter(|(_, headings)| !headings.is_empty())
+                .or_else(|| remark_with_headings(lines, header.clone(), rows.columns))
+                .unwrap_or_default();
+        }
+        let text = || header.clone().map(|index| (index + 1, lines[index]));
+        rows.stated_units = statement::units(text().filter(|(line, _)| *line != rows.headings.0));
+        rows.stated_intervals = text().filter_map(|(line, text)| Some((line, statement::interval(text)?))).collect();
+        Ok(rows)
+    }
+
+    /// The line of the headings, for an error.
+    pub fn entry(&self, remedy: &'static str) -> Entry<'static> {
+        Entry { line: self.headings.0, text: "", remedy }
+    }
+
+    /// Whether a column never falls, or never rises.
+    pub fn is_monotonic(&self, column: usize) -> bool {
+        let mut steps = (1..self.lines.len()).map(|row| self.at(row, column) - self.at(row - 1, column));
+        steps.clone().all(|step| step >= 0.0) || steps.all(|step| step <= 0.0)
+    }
+
+    pub fn at(&self, row: usize, column: usize) -> f64 {
+        self.values[row * self.columns + column]
+    }
+
+    /// The first row in which a column is off the grid of `step` by more than `tolerance`; `scale` is the size of the column's unit.
+    pub fn off_grid(&self, column: usize, scale: f64, step: f64, tolerance: f64) -> Option<usize> {
+        let at = |row: usize| self.at(row, column) * scale;
+        (0..self.lines.len()).find(|row| {
+            let off = (at(*row) - at(0) - *row as f64 * step).abs();
+            off.is_nan() || off > tolerance
+        })
+    }
+
+    /// The mean step of a column; `scale` is the size of the column's unit.
+    pub fn mean_step(&self, column: usize, scale: f64) -> f64 {
+        let last = self.lines.len() - 1;
+        (self.at(last, column) * scale - self.at(0, column) * scale) / last as f64
+    }
+}
+
+/// Whether a column's name means all columns.
+fn is_all(name: &str) -> bool {
+    name.trim().eq_ignore_ascii_case(ALL)
+}
+
+/// Place of the first row of numbers among the lines with words.
+fn first_row(body: &[(usize, &str)]) -> Result<usize, RecordError> {
+    let Some((first_line, first_text)) = body.first() else { return Err(RecordError::Empty) };
+    // The last line of text above the numbers has the headings; the lines before it are titles. A line with the number of samples is a title, as are
+    // all lines above it.
+    let counted = body.iter().take(HEADER_LINES).rposition(|(_, text)| names_count(text)).map_or(0, |place| place + 1);
+    let is_header = |(_, text): &&(usize, &str)| is_text(text) || begins_with_a_word(text);
+    let first = counted + body[counted..].iter().take_while(is_header).count();
+    if first == body.len() {
+        let word = words(first_text).next().expect("lines without words are left out");
+        return Err(unreadable(refused(*first_line, word), body));
+    }
+    Ok(first)
+}
+
+/// Whether a line begins with a word of several letters, which no number does however it is misspelt: `DT= 0.01`, `MAGNITUDE 4.0`.
+fn begins_with_a_word(line: &str) -> bool {
+    let first = words(line).next().map_or("", |word| word.text);
+    first.starts_with(char::is_alphabetic)
+        && first.chars().filter(|c| c.is_alphabetic()).count() > 1
+        && !is_undefined(first)
+}
+
+/// The rows of numbers, without what stands above them: `names` columns have names, zero if none has. Where samples fill row after row, the last row may be
+/// shorter, and each number is a row.
+fn numbers(body: &[(usize, &str)], names: usize, fills_rows: bool) -> Result<Rows, RecordError> {
+    if !fills_rows {
+        refuse_count(body)?;
+    }
+    let decimal_comma = has_decimal_commas(body) || is_column_with_commas(body, names);
+    let mut rows = Rows {
+        headings: Default::default(),
+        lines: Vec::new(),
+        values: Vec::new(),
+        columns: 0,
+        fills_rows,
+        stated_units: Vec::new(),
+        stated_intervals: Vec::new(),
+    };
+    for (place, (line, text)) in body.iter().enumerate() {
+        // Spreadsheets may put every cell between quotes.
+        let text = text.replace('"', " ");
+        let row = if decimal_comma { split(&text.replace(',', "."), *line) } else { full_row(&text, *line) };
+        let row = row.map_err(|error| if rows.lines.is_empty() { unreadable(error, body) } else { error })?;
+        let expected = if rows.lines.is_empty() { row.len() } else { rows.columns };
+        let is_rest = fills_rows && place + 1 == body.len() && row.len() < expected;
+        if row.len() != expected && !is_rest {
+            return Err(RecordError::Columns { line: *line, found: row.len(), expected });
+        }
+        rows.columns = expected;
+        rows.lines.extend(std::iter::repeat_n(*line, if fills_rows { row.len() } else { 1 }));
+        rows.values.extend(row);
+    }
+    if fills_rows {
+        rows.columns = 1;
+    }
+    Ok(rows)
+}
+
+/// Signs that begin a remark.
+pub const REMARK: [char; 2] = ['#', '%'];
+
+/// A line without its remark. After names a remark begins with a sign between blanks only: `Sample #` and `Acc (%g)` are names.
+fn without_remark(line: &str) -> &str {
+    match line.find(REMARK) {
+        Some(at) if is_text(&line[..at]) => line.split(" # ").next().unwrap_or(line),
+        Some(at) => &line[..at],
+        None => line,
+    }
+}
+
+/// The headings in the last remark of the header, where some programs put them, with the number of the line. The remark must have as many words as there are
+/// columns, and begin with a time, or have a unit, or else nothing but names of quantities: it may be a sentence.
+fn remark_with_headings(
+    lines: &[&str],
+    mut header: std::ops::Range<usize>,
+    columns: usize,
+) -> Option<(usize, Vec<Heading>)> {
+    let index = header.rfind(|index| lines[*index].trim_start().starts_with(REMARK))?;
+    let names = headings(lines[index].trim_start().trim_start_matches(REMARK), None);
+    let has_unit = |heading: &Heading| heading.quantity().is_some() && !heading.unit.is_empty();
+    let is_named = names.first().is_some_and(Heading::is_surely_time)
+        || names.iter().any(has_unit)
+        || names.iter().all(|heading| heading.quantity().is_some());
+    (names.len() == columns && is_named).then_some((index + 1, names))
+}
+
+/// Whether a line names all columns of the `row` of numbers below it, each with the name or the unit of a quantity.
+pub fn heads(line: &str, row: &str) -> bool {
+    let names = headings(line.trim_start().trim_start_matches(REMARK), None);
+    names.len() == words(row).count() && names.iter().all(|heading| heading.quantity().is_some())
+}
+
+/// Fewest numbers below a count: a shorter table may begin with any number.
+const FEWEST_COUNTED: usize = 10;
+
+/// Refuses a table whose first number is the number of the rows below it, or of those below the next row, which may have the interval.
+fn refuse_count(body: &[(usize, &str)]) -> Result<(), RecordError> {
+    let (line, text) = body[0];
+    let below = (body.len() - 1) as f64;
+    let first = words(text).next().and_then(|word| number(word.text));
+    match first {
+        Some(count) if body.len() > FEWEST_COUNTED && [below, below - 1.0].contains(&count) => {
+            let remedy = "skip the lines above the samples with `skip_rows`, and give `dt` if the file has no times";
+            Err(Entry { line, text, remedy }.wrong(format!("{count} is the number of the rows below it, no sample")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The error for a first line that is neither numbers nor names: the file may be of no known format, or have a header whose end this error names.
+fn unreadable(error: RecordError, body: &[(usize, &str)]) -> RecordError {
+    match error {
+        RecordError::NotANumber { line, column, text } => {
+            RecordError::NoTable { line, column, text, first_row: first_of_last_rows(body) }
+        }
+        other => other,
+    }
+}
+
+/// Line, from 1, of the first of the rows of equally many numbers with which the lines end; the last row may be shorter. `None` if there is one row or none.
+fn first_of_last_rows(body: &[(usize, &str)]) -> Option<usize> {
+    let mut rows = body.iter().rev().map_while(|(line, text)| Some((*line, split(text, *line).ok()?.len())));
+    let (_, last) = rows.next()?;
+    let (line, columns) = rows.next().filter(|(_, columns)| *columns >= last)?;
+    rows.take_while(|(_, count)| *count == columns).last().map_or(Some(line), |(line, _)| Some(line))
+}
+
+/// Whether commas stand for decimal points. There must be commas but no points; semicolons, tabs or blanks must separate the columns; and
+/// every cell may have one comma, not at its end. If only blanks separate the columns, a cell may not begin with a comma either, since blanks
+/// may stand beside any delimiter.
+fn has_decimal_commas(body: &[(usize, &str)]) -> bool {
+    let cells = |text: &str| {
+        let delimited = text.contains([';', '\t']);
+        text.trim()
+            .split([';', '\t', ' '])
+            .all(|cell| cell.matches(',').count() <= 1 && !cell.ends_with(',') && (delimited || !cell.starts_with(',')))
+    };
+    let any = body.iter().any(|(_, text)| text.contains(','));
+    let parted = |text: &str| text.trim().contains([';', '\t', ' ']);
+    any && body.iter().all(|(_, text)| !text.contains('.') && parted(text) && cells(text))
+}
+
+/// Whether each row is one number with a decimal comma: below one name, or where digits after the comma begin with a zero, as no second number does.
+fn is_column_with_commas(body: &[(usize, &str)], names: usize) -> bool {
+    let begins_with_zero = |text: &str| {
+        let (whole, fraction) = text.trim().split_once(',')?;
+        let is_number = !whole.contains('.') && number(&format!("{whole}.{fraction}")).is_some();
+        is_number.then(|| fraction.len() > 1 && fraction.starts_with('0'))
+    };
+    let found: Option<Vec<bool>> = body.iter().map(|(_, text)| begins_with_zero(text)).collect();
+    found.is_some_and(|zeros| names == 1 || zeros.contains(&true))
+}
+
+/// The numbers of a row. Delimiters may end it. Any other empty cell is refused: to skip it would move the cells after it.
+fn full_row(text: &str, line: usize) -> Result<Vec<f64>, RecordError> {
+    for delimiter in [',', ';'] {
+        let trimmed = text.trim_end().trim_end_matches(delimiter);
+        let mut column = 1;
+        for cell in trimmed.split(delimiter) {
+            if cell.trim().is_empty() && trimmed.contains(delimiter) {
+                return Err(refused(line, Word { column, text: cell.trim() }));
+            }
+            column += cell.chars().count() + 1;
+        }
+    }
+    split(text, line)
+}
