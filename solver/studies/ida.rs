@@ -371,7 +371,7 @@ impl Ida {
     fn run(
         &self,
         simulator: &mut Simulator,
-        progress: &(impl Fn(f64) -> ControlFlow<()> + Sync),
+        progress: &(dyn Fn(f64) -> ControlFlow<()> + Sync),
         index: usize,
     ) -> IdaRun {
         let (record, level, scale) = self.point(index);

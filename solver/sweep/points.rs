@@ -247,10 +247,10 @@ fn evenly_spread(points: Range<usize>, most: usize) -> impl Iterator<Item = usiz
 const LEAST_POINTS: usize = 16;
 
 /// Runs points one after another, and reuses what a point has in common with the one before.
-struct Worker<'s, P> {
+struct Worker<'s> {
     sweep: &'s Sweep,
     /// Called with the time of each run `[s]`; it may end the run.
-    progress: P,
+    progress: Box<dyn Fn(f64) -> ControlFlow<()> + Sync + 's>,
     simulator: Simulator,
     varied: VariedExcitation<'s>,
     /// The scene of the last point.
@@ -263,8 +263,8 @@ struct Worker<'s, P> {
     is_of_ground: Vec<bool>,
 }
 
-impl<'s, P: Fn(f64) -> ControlFlow<()> + Sync> Worker<'s, P> {
-    fn new(sweep: &'s Sweep, progress: P) -> Worker<'s, P> {
+impl<'s> Worker<'s> {
+    fn new(sweep: &'s Sweep, progress: Box<dyn Fn(f64) -> ControlFlow<()> + Sync + 's>) -> Worker<'s> {
         Worker {
             sweep,
             progress,
@@ -449,8 +449,11 @@ impl Sweep {
     ///
     /// # Panics
     /// If there is no such point.
-    pub fn worker_observed(&self, progress: impl Fn(f64) -> ControlFlow<()> + Sync) -> impl FnMut(usize) -> Row {
-        let mut worker = Worker::new(self, progress);
+    pub fn worker_observed<'s>(
+        &'s self,
+        progress: impl Fn(f64) -> ControlFlow<()> + Sync + 's,
+    ) -> impl FnMut(usize) -> Row + 's {
+        let mut worker = Worker::new(self, Box::new(progress));
         move |index| worker.row(index)
     }
 
