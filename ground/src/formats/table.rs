@@ -22,7 +22,7 @@ use crate::error::RecordError;
 use crate::options::TextOptions;
 use crate::unit::AccelerationUnit;
 pub use rows::heads;
-use rows::{REMARK, Rows};
+use rows::{ALL, REMARK, Rows};
 
 /// Reads a table.
 pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordError> {
@@ -131,9 +131,6 @@ fn title(lines: &[&str]) -> String {
         .filter(|line| line.contains(char::is_alphabetic))
         .unwrap_or_default()
 }
-
-/// The column of a table whose samples fill row after row, and so all columns.
-const ALL: &str = "all";
 
 /// Fewest columns without names and times that may well be samples which fill row after row: fewer may be components.
 const FEWEST_OF_WRAPPED: usize = 4;

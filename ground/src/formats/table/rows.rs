@@ -3,14 +3,16 @@
 //! Blanks, tabs, commas and semicolons separate the columns. If others than commas do, commas may be decimal points. Text above the numbers is a header: the
 //! last line of it, unless it has numbers, names the columns.
 
-use super::super::header::Entry;
-use super::super::heading::{Heading, headings};
-use super::super::numbers::{Word, is_text, is_undefined, number, refused, split, words};
-use super::super::statement::{self, HEADER_LINES, names_count};
-use super::ALL;
 use crate::error::RecordError;
+use crate::formats::header::Entry;
+use crate::formats::heading::{Heading, headings};
+use crate::formats::numbers::{Word, is_text, is_undefined, number, refused, split, words};
+use crate::formats::statement::{self, HEADER_LINES, names_count};
 use crate::options::TextOptions;
 use crate::unit::AccelerationUnit;
+
+/// The column of a table whose samples fill row after row, and so all columns.
+pub const ALL: &str = "all";
 
 /// The rows of a table. Samples that fill row after row are rows of one column.
 pub struct Rows {

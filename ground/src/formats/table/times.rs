@@ -3,10 +3,10 @@
 //! Without names the times are the nearest column before the accelerations that has equal steps, else the first column if it never falls. Equal intervals are
 //! required: nothing is resampled here.
 
-use super::super::header::{Entry, brief};
-use super::super::heading::Quantity;
 use super::rows::Rows;
 use crate::error::RecordError;
+use crate::formats::header::{Entry, brief};
+use crate::formats::heading::Quantity;
 use crate::options::TextOptions;
 
 /// Share of `dt` by which a row may be off the grid: a time column may be rounded to its last printed digit.
