@@ -27,8 +27,13 @@ use wide::f64x2;
 /// Lowest order.
 const MIN_ORDER: usize = 4;
 
-/// Weight of the last term but one in the error. It counts because every second coefficient of an odd or even function is zero.
+/// Weight of the last term but one in the error of a step, and of each term relative to the one after it. Terms before the last count because the last ones may be zero:
+/// every second one of an odd or even function; in resonance at the start from rest, two of four, and three of four of an even function. Where terms
+/// decay evenly, the last one is the error.
 pub const BEFORE_LAST: f64 = 0.1;
+
+/// Number of last terms in the error of a step.
+pub const LAST_TERMS: usize = 4;
 
 /// Factor by which terms are kept below the tolerance. Without it, errors reach the tolerance at best, and several times the tolerance where
 /// the motion lingers at an unstable balance. It shortens the step by an eighth.
@@ -166,20 +171,25 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
         h: f64,
         scale: &L::Of<f64>,
     ) -> (usize, f64) {
-        let (mut error, mut order, mut power) = (f64::INFINITY, MIN_ORDER - 1, TERMS_BELOW_TOLERANCE * h * h * h);
-        let mut last = self.term(order, power, scale);
+        let (mut error, mut order, mut power) = (f64::INFINITY, MIN_ORDER - 1, TERMS_BELOW_TOLERANCE * h);
+        let mut sizes = [0.0; LAST_TERMS];
+        for order in MIN_ORDER + 1 - LAST_TERMS..MIN_ORDER {
+            sizes.rotate_left(1);
+            sizes[LAST_TERMS - 1] = self.term(order, power, scale);
+            power *= h;
+        }
         while order < self.series.largest_order {
             if order == self.series.known {
                 self.series.extend(system, self.series.largest_order);
             }
             order += 1;
+            sizes.rotate_left(1);
+            sizes[LAST_TERMS - 1] = self.term(order, power, scale);
             power *= h;
-            let size = self.term(order, power, scale);
-            error = larger(size, BEFORE_LAST * last);
+            error = error_of(sizes);
             if error <= 1.0 {
                 break;
             }
-            last = size;
         }
         (order, error)
     }
@@ -187,13 +197,18 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
     /// Error of a step with the series up to this order, relative to the tolerance.
     #[inline(always)]
     fn error_at(&self, order: usize, h: f64, scale: &L::Of<f64>) -> f64 {
-        let (mut power, mut square, mut left) = (TERMS_BELOW_TOLERANCE, h, order - 1);
+        let first = order + 1 - LAST_TERMS;
+        let (mut power, mut square, mut left) = (TERMS_BELOW_TOLERANCE, h, first);
         while left > 0 {
             power *= if left % 2 == 1 { square } else { 1.0 };
             square *= square;
             left /= 2;
         }
-        larger(self.term(order, power * h, scale), BEFORE_LAST * self.term(order - 1, power, scale))
+        error_of(std::array::from_fn(|place| {
+            let size = self.term(first + place, power, scale);
+            power *= h;
+            size
+        }))
     }
 
     /// Ends the last attempt earlier, after `h`, on the same polynomial.
@@ -360,6 +375,12 @@ fn fitting(error: f64, order: usize) -> (f64, bool) {
     let careful = SAFETY / rough_root(larger(error, 1e-30), if is_too_long { order - 3 } else { order });
     let is_near = careful > 0.7 && careful < 1.4;
     if is_near || !is_too_long { (careful, is_near) } else { (SAFETY / rough_root(error, order), false) }
+}
+
+/// Error of a step from the sizes of its last terms, the last one last.
+#[inline(always)]
+pub fn error_of(sizes: [f64; LAST_TERMS]) -> f64 {
+    sizes.into_iter().fold(0.0, |before, size| larger(size, BEFORE_LAST * before))
 }
 
 /// The larger of two; the second where one is not a number.

@@ -11,7 +11,7 @@ use crate::friction::search::guard_slack;
 use crate::friction::series::{MOST_ORDERS, Series};
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::ode::control::{Tolerance, rough_root, without_remainder};
-use crate::numerics::ode::taylor::{BEFORE_LAST, LARGEST_GROWTH, SAFETY, TERMS_BELOW_TOLERANCE};
+use crate::numerics::ode::taylor::{LARGEST_GROWTH, LAST_TERMS, SAFETY, TERMS_BELOW_TOLERANCE, error_of};
 use crate::numerics::per_block::PerBlock;
 use crate::response::Work;
 use crate::run::error::SolveError;
@@ -168,10 +168,12 @@ fn length(series: &mut Series, most: f64, most_orders: usize, limits: &StepLimit
 fn error(series: &Series, h: f64, limits: &StepLimits) -> f64 {
     let &StepLimits { tolerance, ground, size, speed } = limits;
     let last = series.orders();
-    let power = (1..last).fold(TERMS_BELOW_TOLERANCE, |power, _| power * h);
-    // From the last two coefficients of a rate, and the errors allowed to value and rate.
-    let weighted = |rates: [f64; 2], allowed: [f64; 2]| {
-        let last_terms = (rates[1] * h).abs().max(BEFORE_LAST * rates[0].abs()) * power;
+    let from = last + 1 - LAST_TERMS;
+    let power = (0..from).fold(TERMS_BELOW_TOLERANCE, |power, _| power * h);
+    let powers = [power, power * h, power * h * h, power * h * h * h];
+    // From the last coefficients of a rate, and the errors allowed to value and rate.
+    let weighted = |rates: [f64; LAST_TERMS], allowed: [f64; 2]| {
+        let last_terms = error_of(std::array::from_fn(|place| (rates[place] * powers[place]).abs()));
         last_terms * (h / (last as f64 * allowed[0])).max(1.0 / allowed[1])
     };
     let mut error = 0.0f64;
@@ -182,11 +184,12 @@ fn error(series: &Series, h: f64, limits: &StepLimits) -> f64 {
         let [value, first, second] = [values.of(0).abs(), rate(0).abs(), rate(1).abs()];
         let at_end = [value + h * (first + 0.5 * h * second), first + h * second];
         let allowed = [tolerance.scale(value, at_end[0]), tolerance.scale(first, at_end[1])];
-        raise(weighted([rate(last - 1), rate(last)], allowed));
+        raise(weighted(std::array::from_fn(|place| rate(from + place)), allowed));
     }
     for acceleration in ground {
         let rate = |order: usize| acceleration[order - 1] / order as f64;
-        raise(weighted([rate(last - 1), rate(last)], [size, speed].map(|scale| tolerance.scale(scale, scale))));
+        let allowed = [size, speed].map(|scale| tolerance.scale(scale, scale));
+        raise(weighted(std::array::from_fn(|place| rate(from + place)), allowed));
     }
     error
 }
