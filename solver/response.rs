@@ -342,11 +342,11 @@ pub struct Response {
     pub status: StopReason,
     /// When the run ended `[s]`: at overturning or collapse, at coming to rest for good, when what is requested is certain, or at `t_end`.
     pub t_final: f64,
-    /// Whether the column stands at the end of the run and the ground still moves after `t_end`, or the column [may overturn](Self::may_overturn) or
+    /// Whether the column stands at the end of the run and the ground still moves after `t_end`, or the column [may overturn](Self::may_overturn), or
     /// [slides on](Self::slides_on) on the ground at rest: the outcome then holds up to `t_end` only.
     #[serde(default)]
     pub truncated: bool,
-    /// Whether the ground rests from `t_end` on and the column that stands then is past its balance, or has the energy to get there: it may be falling.
+    /// Whether the column that stands at `t_end` is past its balance, or has the energy to get there on a ground that rests from then on: it may be falling.
     #[serde(default)]
     pub may_overturn: bool,
     /// Whether the ground rests from `t_end` on and blocks slide or fly then: their slides at the end are not final. Only with friction. Blocks that
@@ -414,6 +414,12 @@ impl Response {
     /// Time of overturning `[s]`; `None` unless the run ended with it.
     pub fn overturned_at(&self) -> Option<f64> {
         (self.status == StopReason::Overturned).then_some(self.t_final)
+    }
+
+    /// Whether the run ended with a block at an overturning angle `[rad]` that is below the balance of the stack that begins with it: it may have returned.
+    pub fn ends_below_balance(&self, column: &Column, overturn_angle: f64) -> bool {
+        let is_below = |block: usize| overturn_angle < column.stack(block - 1).slenderness();
+        self.status == StopReason::Overturned && self.overturned_block.is_some_and(is_below)
     }
 
     /// Largest `|θ|` of each block over the slenderness of the stack from that block up, base first, dimensionless. Above one, the block has been

@@ -180,7 +180,13 @@ fn a_check_says_towards_which_side_a_displaced_column_is_weak() {
     let told = |amplitude: &str| Folder::with("scene.toml", &scene(amplitude)).succeeds("check scene.toml");
     assert_has(
         &told("0.4"),
-        &["0.4000 g opens no interface of the column at rest, which takes 0.2444 g towards its weaker side"],
+        &[
+            "0.4000 g opens no interface of the column at rest: it does not act towards its weaker side, which takes 0.2444 g",
+        ],
+    );
+    assert_has(
+        &told("-0.2"),
+        &["0.2000 g opens no interface of the column at rest, which takes 0.2444 g towards its weaker side"],
     );
     assert_has(&told("-0.4"), &["is enough to open", "opens at 0.2444 g towards its weaker side"]);
 }
@@ -224,6 +230,31 @@ fn factors_of_restitution_that_would_gain_energy_are_named() {
         assert_has(&told(factors), &[&words]);
     }
     assert!(!told("[1.01, 1.06]").contains("gain energy"));
+}
+
+/// The impulse that turns a block with the ratio η has a friction ratio of h/b (1 - η)/(1 + η), 0.4635 here.
+#[test]
+fn a_ratio_that_friction_cannot_give_is_noted() {
+    let told = |friction: f64| {
+        let scene = format!(
+            "friction = {friction}\n[column]\nblocks = 1\nhalf_width = 0.3\nhalf_height = 2.0\n[restitution]\neta = 0.87\n\
+             [excitation.horizontal]\nkind = \"sine-pulse\"\namplitude_uplift = 2.0\nomega_p = 5.0\n[solver]\nt_end = 5.0\n"
+        );
+        let folder = Folder::with("scene.toml", &scene);
+        folder.succeeds("run scene.toml --no-trust");
+        let plastic = folder.summary()["without_restitution"].as_u64().expect("a count");
+        (folder.succeeds("check scene.toml"), plastic)
+    };
+    let (text, plastic) = told(0.46);
+    assert_has(
+        &text,
+        &[
+            "at impacts without a slide that takes a coefficient of friction of 0.4635; with 0.46 restitution is left out",
+        ],
+    );
+    assert!(plastic > 2, "{plastic}");
+    let (text, plastic) = told(0.47);
+    assert!(!text.contains("restitution is left out") && plastic == 0, "{plastic}, {text}");
 }
 
 #[test]

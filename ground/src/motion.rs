@@ -44,7 +44,7 @@ pub enum Motion {
     /// of a Gaussian. The peak is at `t_0 = start + 6√2/ω`. The wavelet is cut off where `|u| > 6`: it is below 6e-7 of the amplitude there.
     /// The ground stops where it was.
     Ricker { amplitude: f64, omega: f64, start: f64 },
-    /// `a = amplitude / β · (u² - 3) u exp(-u²/2)`, `u = ω (t - t_0) / √3`, `β = 1.3801`: the antisymmetric Ricker wavelet of period
+    /// `a = amplitude / β · (u² - 3) u exp(-u²/2)`, `u = ω (t - t_0) / √3`, `β = 1.380119`: the antisymmetric Ricker wavelet of period
     /// `T_p`, third derivative of a Gaussian. `t_0 = start + 6.5√3/ω`. The wavelet is cut off where `|u| > 6.5`: it is below 2e-7 of the
     /// amplitude there. The ground stops where it was.
     AntisymmetricRicker { amplitude: f64, omega: f64, start: f64 },
@@ -392,7 +392,8 @@ pub(crate) mod tests {
         let antisymmetric = Motion::AntisymmetricRicker { amplitude, omega, start: 0.0 };
         let centre = ANTISYMMETRIC_REACH * 3f64.sqrt() / omega;
         let square = 4.0 * PI * PI * t * t / (3.0 * period * period);
-        let expected = amplitude / 1.3801 * (square - 3.0) * (TAU * t / (3f64.sqrt() * period)) * (-0.5 * square).exp();
+        let expected =
+            amplitude / 1.380119 * (square - 3.0) * (TAU * t / (3f64.sqrt() * period)) * (-0.5 * square).exp();
         assert!((antisymmetric.value(centre + t) - expected).abs() < 1e-4, "beta is printed with five digits");
     }
 

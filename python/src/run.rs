@@ -266,10 +266,10 @@ impl Response {
         self.trust.as_ref().map(Trust::sentence)
     }
 
-    /// Whether companions say that the verdict is not determined. A run that ends undetermined says so itself.
+    /// Words before the outcome of a run whose verdict is not determined; otherwise empty.
     #[getter]
-    fn is_open(&self) -> bool {
-        self.trust.as_ref().is_some_and(Trust::is_open)
+    fn lead(&self) -> &'static str {
+        self.trust.as_ref().map_or("", Trust::lead)
     }
 
     /// The text of `summary.json`.

@@ -122,7 +122,6 @@ impl Simulator {
         self.modes.take_work();
         let mut response = self.response(scene, progress)?;
         let ground_moves = scene.excitation.moves_after(scene.options.t_end);
-        response.may_overturn &= !ground_moves;
         response.slides_on &= !ground_moves;
         let is_open = ground_moves || response.may_overturn || response.slides_on;
         response.truncated = response.status.stands() && is_open;

@@ -3,6 +3,7 @@
 use super::history::{AGREEMENT, Comparison};
 use super::verdict::Verdict;
 use crate::column::{Block, Column};
+use crate::friction::Friction;
 use crate::response::Response;
 use crate::scene::{SMALLEST_STICK_ANGLE, Scene, TIGHTEST_RTOL};
 use rocking_ground::Motion;
@@ -31,19 +32,17 @@ pub enum Change {
     Tolerance(f64),
     /// Ground motion, initial angles, rates and velocities multiplied by one plus this; blocks placed by their centroids keep their angles.
     Excitation(f64),
-    /// Half-widths multiplied by `1 + x` and `1 - x` on alternate blocks; masses are unchanged.
+    /// Half-widths multiplied by `1 + x` and `1 - x` on alternate blocks, and so coefficients of friction on alternate interfaces; masses are unchanged.
+    /// Blocks placed by their centroids keep their widths.
     Sizes(f64),
 }
 
 impl Change {
-    /// The changes of a scene's companions.
-    pub(super) fn all(scene: &Scene) -> Vec<Change> {
+    /// The changes of all companions.
+    pub(super) fn all() -> Vec<Change> {
         let mut changes = vec![Change::Tolerance(TIGHTER)];
         changes.extend(CHANGES.map(Change::Excitation));
-        // Blocks that are put in place one by one would be pushed into each other.
-        if scene.initial.x.is_empty() {
-            changes.extend(CHANGES.map(Change::Sizes));
-        }
+        changes.extend(CHANGES.map(Change::Sizes));
         changes
     }
 
@@ -71,7 +70,13 @@ impl Change {
                 return with_scaled_motion(&changed, 1.0 + change);
             }
             Change::Sizes(change) => {
-                changed.column = widened(&scene.column, change)?;
+                // Equal coefficients of equal drums decide which of them slides: no two joints are so equal.
+                changed.friction =
+                    scene.friction.as_ref().map(|friction| alternating(friction, scene.column.len(), change));
+                // Blocks that are put in place one by one would be pushed into each other.
+                if scene.initial.x.is_empty() {
+                    changed.column = widened(&scene.column, change)?;
+                }
             }
         }
         Some(changed)
@@ -103,10 +108,22 @@ pub(super) fn with_scaled_motion(scene: &Scene, factor: f64) -> Option<Scene> {
     Some(changed)
 }
 
+/// Factor of the block or interface at a place, from 0, in [`Change::Sizes`].
+fn factor(place: usize, change: f64) -> f64 {
+    if place % 2 == 0 { 1.0 + change } else { 1.0 - change }
+}
+
+/// Friction changed as by [`Change::Sizes`].
+fn alternating(friction: &Friction, blocks: usize, change: f64) -> Friction {
+    let changed =
+        |list: &[f64]| (0..blocks).map(|place| list[place.min(list.len() - 1)] * factor(place, change)).collect();
+    Friction::new(changed(&friction.fixed), changed(&friction.kinetic))
+}
+
 /// The column changed as by [`Change::Sizes`]; `None` if it would be refused.
 fn widened(column: &Column, change: f64) -> Option<Column> {
     let widen = |(place, block): (usize, &Block)| {
-        let factor = if place % 2 == 0 { 1.0 + change } else { 1.0 - change };
+        let factor = factor(place, change);
         let diagonal = |half_width: f64| half_width * half_width + block.half_height * block.half_height;
         Block {
             bottom_half_width: block.bottom_half_width * factor,

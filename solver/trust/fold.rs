@@ -80,9 +80,9 @@ impl Fold {
         let largest = self.tried.last().copied().unwrap_or(0.0);
         if self.turns.is_empty() {
             return format!(
-                "the same with up to {} % more or less shaking ({} tried)",
-                100.0 * largest,
-                2 * self.tried.len()
+                "the same in {} runs with up to {} % more or less shaking",
+                2 * self.tried.len(),
+                100.0 * largest
             );
         }
         if let [one, other] = &self.turns[..]

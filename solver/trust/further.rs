@@ -1,5 +1,4 @@
-//! Further companions, where nine are too few: changes of 1e-6 make the angles part before the verdict is certain, and one in ten of them may make another
-//! verdict.
+//! Further companions, where nine are too few: they share a verdict that is certain only after the angles have parted, and one change in ten may make another.
 
 use super::cancellation;
 use super::companions::{Change, LARGEST_CHANGE};

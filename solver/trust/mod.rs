@@ -1,10 +1,10 @@
 //! How far a run can be trusted: the run among companions, which differ from it by less than anybody can know.
 //!
 //! ```text
-//! scene ──> companions.rs   the scene at a tighter tolerance; excitation and sizes changed by 1e-9 and 1e-6
+//! scene ──> companions.rs   the scene at a tighter tolerance; excitation, and sizes with friction, changed by 1e-9 and 1e-6
 //!       ──> history.rs      angles and slides of two runs side by side: until when they agree, by how much a change has grown
 //!       ──> band.rs         the smallest and the largest angle of all runs, over time
-//!       ──> further.rs      more changes of 1e-6, where they make the angles part before the verdict is certain
+//!       ──> further.rs      more changes of 1e-6, where the angles part before a verdict is certain that the nine share
 //!       ──> verdict.rs      the outcome of each run: stands, overturns, collapses, or nothing that is known
 //!       ──> fold.rs         the smallest change of the shaking, among a few, that changes the verdict
 //! ```
@@ -12,8 +12,9 @@
 //! The *horizon* is the time up to which the run agrees, to [`AGREEMENT`], with the companions that differ by the tolerance or by 1e-9. Up to then
 //! the scene determines the angles, and the solver finds them. A verdict is *determined* if it is certain within the horizon and all companions have
 //! the same one, those with changes of 1e-6 too: four of these, or 28 where they have parted from the run before its verdict is certain. Beyond the
-//! horizon neither angles nor verdict are known: slender stacks in long shaking are chaotic, and no tolerance helps. `undetermined` has another
-//! meaning: a run with friction ends so where no motion follows from the laws of contact ([`StopReason::Undetermined`]).
+//! horizon neither angles nor verdict are known: slender stacks in long shaking are chaotic, and no tolerance helps. A verdict that is certain only then
+//! is *likely* if all companions have it, 24 further ones included. `undetermined` has another meaning: a run with friction ends so where no motion
+//! follows from the laws of contact ([`StopReason::Undetermined`]).
 //!
 //! The run itself is not touched: its response is that of [`crate::simulate`], bit for bit.
 
@@ -90,8 +91,8 @@ pub struct Trust {
     pub same_block: bool,
     /// The companions.
     pub companions: Vec<Companion>,
-    /// More companions with changes up to 1e-6; `None` where the nine decide: without them the verdict is not determined, or all agree with the run until it
-    /// is certain.
+    /// More companions with changes up to 1e-6; `None` where the nine decide: they have several verdicts, or agree with the run until its verdict is certain.
+    /// `None` also for a verdict that is not determined, unless [`TrustOptions::likely`] is requested.
     #[serde(default)]
     pub further: Option<Further>,
     /// The search for the change of the shaking that changes the verdict. `None` unless requested, without ground motion, and where the verdict is
@@ -106,6 +107,8 @@ pub struct Trust {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct TrustOptions {
+    /// Whether to run further companions where nine share a verdict that they do not determine, to know whether it is likely ([`Trust::is_likely`]).
+    pub likely: bool,
     /// Whether to search for the change of the shaking that changes the verdict.
     pub fold: bool,
     /// Whether to keep the range of the angles over time.
@@ -113,14 +116,14 @@ pub struct TrustOptions {
 }
 
 impl TrustOptions {
-    /// Neither: only the trust in the verdict, as sweeps and studies need it for each of many runs.
-    pub const VERDICT: TrustOptions = TrustOptions { fold: false, band: false };
+    /// Nothing else: only the trust in the verdict, as sweeps and studies need it for each of many runs.
+    pub const VERDICT: TrustOptions = TrustOptions { likely: false, fold: false, band: false };
 }
 
 impl Default for TrustOptions {
-    /// Both the fold and the band.
+    /// All of it.
     fn default() -> TrustOptions {
-        TrustOptions { fold: true, band: true }
+        TrustOptions { likely: true, fold: true, band: true }
     }
 }
 
@@ -192,8 +195,9 @@ pub fn follow_run_observed(
     let certain_at = certain_at(scene, response, run)?;
     let is_settled = !matches!(verdict, Verdict::Undetermined | Verdict::MayOverturn);
     let input_horizon = until(|_| true);
-    let is_certain = is_settled && same_verdict && horizon >= certain_at;
-    let needs_further = is_certain && input_horizon < certain_at;
+    let is_shared = is_settled && same_verdict;
+    let is_certain = is_shared && horizon >= certain_at;
+    let needs_further = is_shared && input_horizon < certain_at && (is_certain || asked.likely);
     let further = if needs_further { Some(Further::follow(scene, verdict, run)?) } else { None };
     let determined = is_certain && further.is_none_or(|further| further.others == 0);
     let (amplification, grows_on) = companions::amplification(&companions);
@@ -239,7 +243,7 @@ impl Followed {
     fn by(scene: &Scene, run: impl Fn(&Scene) -> Result<Response, SolveError> + Sync) -> Result<Followed, SolveError> {
         let own = run(scene)?;
         let changed = |change: Change| (change, change.scene(scene).map(|changed| run(&changed)));
-        let runs: Vec<_> = Change::all(scene).into_par_iter().map(changed).collect();
+        let runs: Vec<_> = Change::all().into_par_iter().map(changed).collect();
         match runs.iter().find_map(|(_, run)| run.as_ref().and_then(cancellation)) {
             Some(cancelled) => Err(cancelled),
             None => {
@@ -301,6 +305,21 @@ impl Trust {
         !self.determined && self.verdict != Verdict::Undetermined
     }
 
+    /// Whether a verdict that is not determined is that of all companions, 24 further ones included. Of changes below a millionth, one in ten or more would then
+    /// make another verdict with a chance of 8 % only.
+    pub fn is_likely(&self) -> bool {
+        !self.determined && self.further.is_some_and(|further| further.others == 0)
+    }
+
+    /// Words before the outcome of a run whose verdict is not determined; otherwise empty.
+    pub fn lead(&self) -> &'static str {
+        match self.is_open() {
+            true if self.is_likely() => "not determined, but likely; this run ",
+            true => "not determined; this run ",
+            false => "",
+        }
+    }
+
     /// Time up to which the run is known, if its verdict is not determined `[s]`: the horizon, or that of the inputs where the verdict is certain within the
     /// horizon and changes of 1e-6 reverse it.
     pub fn known_until(&self) -> f64 {
@@ -333,17 +352,21 @@ impl Trust {
     /// Trust in a line: if the verdict is determined, how many companions agree; if not, how far angles are known and the verdicts of the companions.
     pub fn sentence(&self) -> String {
         let count = self.companions.len() + self.further.map_or(0, |further| further.runs);
-        let grown = format!("{}{}", if self.grows_on { "more than " } else { "" }, times(self.amplification));
+        let grown = match self.grows_on {
+            true => format!("small changes grow more than {} times", times(self.amplification)),
+            false if self.amplification < 1.0 => "small changes do not grow".to_string(),
+            false => format!("small changes grow {} times", times(self.amplification)),
+        };
         if self.determined {
             let until = match self.reaches_the_end() {
                 true => "agree to the end".to_string(),
                 false => format!(
-                    "have this verdict and agree up to t = {:.4} s{}",
+                    "have this verdict and move alike up to t = {:.4} s{}",
                     self.input_horizon,
                     self.spacing(self.input_horizon)
                 ),
             };
-            let mut text = format!("{count} companions {until}, small changes grow {grown} times");
+            let mut text = format!("{count} companions {until}, {grown}");
             if let Some(fold) = &self.fold {
                 text.push_str("; ");
                 text.push_str(&fold.sentence());
@@ -352,10 +375,11 @@ impl Trust {
         }
         let verdicts = self.verdicts();
         let verdicts_in_words = match (&verdicts[..], self.further) {
+            (_, Some(Further { others: 0, .. })) => format!("all {count} companions {} as well", plural(self.verdict)),
             (_, Some(Further { others: 1, .. })) => format!("of {count} companions 1 has another verdict"),
             (_, Some(Further { others, .. })) => format!("of {count} companions {others} have another verdict"),
             ([(Some(verdict), _)], None) if *verdict == self.verdict => {
-                format!("all {count} companions {} as well, which proves nothing beyond", plural(*verdict))
+                format!("all {count} companions {} as well", plural(*verdict))
             }
             (counts, None) => {
                 let counts: Vec<String> = counts.iter().map(|one| counted(*one)).collect();
@@ -365,14 +389,19 @@ impl Trust {
         let known = match self.horizon >= self.ends_at
             && verdicts.iter().any(|(verdict, _)| *verdict == Some(Verdict::MayOverturn))
         {
-            true => "angles are known to the end of the run, but the column may be falling then".to_string(),
+            true => "angles are known to the end of the run, but the column may be falling then: give a later t_end"
+                .to_string(),
             false => {
-                let (known, why) =
-                    (self.known_until(), if self.is_open_by_inputs() { "with changes of 1e-6 " } else { "" });
-                format!("{why}angles are known up to t = {known:.4} s only{}", self.spacing(known))
+                let (known, spacing) = (self.known_until(), self.spacing(self.known_until()));
+                match self.is_open_by_inputs() {
+                    true => format!(
+                        "a change of the inputs by a millionth alters the motion from t = {known:.4} s on{spacing}"
+                    ),
+                    false => format!("angles are known up to t = {known:.4} s only{spacing}"),
+                }
             }
         };
-        format!("{known}; small changes grow {grown} times; {verdicts_in_words}")
+        format!("{known}; {grown}; {verdicts_in_words}")
     }
 
     /// The interval of the rows in words, where it is more than a small part of a horizon.

@@ -133,11 +133,17 @@ fn end_of_run(scene: &Scene, response: &Response) -> String {
     match response.status {
         StopReason::Overturned => {
             let block = response.overturned_block.map_or(String::new(), |block| format!(" ({})", named(scene, block)));
-            format!("{fate} at t = {t:.4} s{block}")
+            let early = match response.ends_below_balance(&scene.column, scene.options.overturn_angle) {
+                true => {
+                    format!(": reaches solver.overturn_angle = {} rad, below its balance", scene.options.overturn_angle)
+                }
+                false => String::new(),
+            };
+            format!("{fate} at t = {t:.4} s{block}{early}")
         }
         StopReason::Falls => format!("{fate}, certain from t = {t:.4} s on"),
         _ if response.may_overturn => format!(
-            "{fate}; not overturned up to t = {} s, where the run ends and the column has the energy to overturn",
+            "{fate}; not overturned up to t = {} s, where the run ends and the column may be falling",
             scene.options.t_end
         ),
         StopReason::AtRest | StopReason::EndOfTime if response.cuts_ground_motion() => format!(

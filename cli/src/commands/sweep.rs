@@ -356,7 +356,7 @@ impl std::fmt::Display for Tally {
         if self.truncated > 0 {
             writeln!(
                 f,
-                "{} run(s) are cut at solver.t_end: the ground still moves there, the column has the energy to overturn, or blocks slide on",
+                "{} run(s) are cut at solver.t_end: the ground still moves there, the column may be falling, or blocks slide on",
                 self.truncated
             )?;
         }

@@ -42,9 +42,8 @@ impl Followed {
     }
 
     /// Words before the outcome of a run whose verdict is not determined; otherwise empty.
-    /// Empty also for a run that ends undetermined: its outcome says so itself.
     pub fn lead(&self) -> &'static str {
-        if self.trust().is_some_and(|trust| trust.is_open()) { "not determined; this run " } else { "" }
+        self.trust().map_or("", Trust::lead)
     }
 
     /// The line on trust; empty with `--no-trust`.

@@ -16,18 +16,21 @@ pub fn qualified(results: &Results, class: &'static str, words: String) -> (&'st
         return (class, words);
     }
     let plain = words.replace("<strong>", "").replace("</strong>", "").replacen("The column", "the column", 1);
-    ("undetermined", format!("The verdict is <strong>not determined</strong>. In this run {plain}"))
+    let likely = if results.trust.as_ref().is_some_and(Trust::is_likely) { ", but likely" } else { "" };
+    ("undetermined", format!("The verdict is <strong>not determined</strong>{likely}. In this run {plain}"))
 }
 
-/// A paragraph on what the companions say. Empty for a run without companions.
+/// A paragraph on what the companions say, or that there are none.
 pub fn paragraph(results: &Results) -> String {
-    let Some(trust) = &results.trust else { return String::new() };
+    let Some(trust) = &results.trust else {
+        return "<p>Trust: whether slightly different inputs give another verdict was not examined (<code>rocking run --trust</code>).</p>\n".into();
+    };
     let mut text = format!("<p>Trust: {}.", escape(&trust.sentence()));
     if is_open(results) {
         let _ = write!(
             text,
-            " Companions are the same scene at a tighter tolerance, and with excitation and sizes changed by 1e-9 and 1e-6: what they do not agree \
-             on does not follow from the scene."
+            " Companions are the same scene at a tighter tolerance, and with excitation, sizes and friction changed by 1e-9 and 1e-6, which is less \
+             than anybody can know. They move differently from then on."
         );
     }
     text.push_str("</p>\n");

@@ -329,11 +329,17 @@ fn fall(results: &Results) -> String {
     let (Some(validity), Some(fallen), None) = (&response.validity, response.overturned_at(), &response.sliding) else {
         return String::new();
     };
+    let (fallen, until) = (significant(fallen, 5), significant(validity.until, 5));
+    if response.ends_below_balance(&results.column, results.options.overturn_angle) {
+        return format!(
+            "<p>The run ends at t = {fallen} s, where some block reaches the overturning angle of {} rad (<code>solver.overturn_angle</code>), which is less \
+             than its balance. Contacts count up to t = {until} s.</p>\n",
+            significant(results.options.overturn_angle, 5)
+        );
+    }
     format!(
-        "<p>The column overturns at t = {} s. Contacts count up to the point of no return, t = {} s: from then on some block is past its \
-             balance, and falls. What its contacts would need in the fall does not change the outcome.</p>\n",
-        significant(fallen, 5),
-        significant(validity.until, 5)
+        "<p>The column overturns at t = {fallen} s. Contacts count up to the point of no return, t = {until} s: from then on some block is past its \
+             balance, and falls. What its contacts would need in the fall does not change the outcome.</p>\n"
     )
 }
 

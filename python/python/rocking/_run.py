@@ -296,14 +296,14 @@ class Run:
     def warnings(self) -> list[str]:
         """What must be known before the run is believed, a sentence each."""
         warnings = self._response.warnings
-        if self._response.is_open:
+        if self._response.lead:
             warnings.append(f"the verdict is not determined: {self._response.trust}")
         return warnings
 
     @property
     def _lead(self) -> str:
         """Words before the outcome of a run whose verdict is not determined."""
-        return "not determined; this run " if self._response.is_open else ""
+        return self._response.lead
 
     def to_pandas(self) -> pd.DataFrame:
         """The rows as a table with the columns of ``response.csv`` except ``pattern``: ``t``, ``theta_1``, ..., ``omega_1``, ..., ``ground_x``, ``ground_y``.

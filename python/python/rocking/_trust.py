@@ -40,7 +40,8 @@ class Trust:
     run failed), the ``block`` that is lost (None if none is), ``ends_at`` [s], ``parts_at`` [s] (None if it agrees to the end), and the largest
     ``difference``, as in ``amplification``."""
     further: dict[str, int] | None
-    """More companions with changes up to 1e-6: how many ``runs``, and how many ``others`` failed or have another verdict; None where the first ones decide."""
+    """More companions with changes up to 1e-6: how many ``runs``, and how many ``others`` failed or have another verdict; None where the first ones decide. A
+    verdict that is not determined is likely where there are no others."""
     fold: dict[str, Any] | None
     """The relative changes of the shaking that were ``tried``, each up and down, and in ``turns`` those of the smallest size that make another verdict. None for
     a run that is not determined, or without ground motion."""

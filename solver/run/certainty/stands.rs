@@ -79,9 +79,9 @@ impl Barrier {
         theta.iter().zip(&self.angles).any(|(theta, most)| theta.abs() > *most)
     }
 
-    /// Whether the column may overturn: some angle `[rad]` is outside [`Self::angles`], or the energy above rest `[J]` reaches [`Self::energy`].
-    pub(crate) fn may_be_passed(&self, theta: &[f64], energy: f64) -> bool {
-        self.is_left(theta) || energy >= self.energy
+    /// Whether an energy above rest `[J]` reaches [`Self::energy`].
+    pub(crate) fn is_within_reach(&self, energy: f64) -> bool {
+        energy >= self.energy
     }
 }
 

@@ -58,11 +58,14 @@ fn above_rest(bounds: &OutcomeBounds, column: &Column, pattern: &Pattern, theta:
     })
 }
 
-/// Whether a column in this state, on a ground at rest, is past its balance or has the energy to get there.
+/// Whether a column in this state, at the end of a run, is past its balance or, on a ground that rests from then on, has the energy to get there.
 pub(crate) fn may_overturn(scene: &Scene, state: &State) -> bool {
     let bounds = OutcomeBounds::of(scene);
-    let energy = above_rest(&bounds, &scene.column, &state.pattern, &state.theta, &state.omega);
-    bounds.barrier.may_be_passed(&state.theta, energy)
+    let has_energy = || {
+        let energy = above_rest(&bounds, &scene.column, &state.pattern, &state.theta, &state.omega);
+        !scene.excitation.moves_after(scene.options.t_end) && bounds.barrier.is_within_reach(energy)
+    };
+    bounds.barrier.is_left(&state.theta) || has_energy()
 }
 
 /// Whether one block, leaning to a side at an angle and a rate `[θ, θ̇]`, is certain to overturn before the run ends.

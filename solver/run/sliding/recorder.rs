@@ -409,10 +409,15 @@ impl<'p> SlidingRecorder<'p> {
         (0..now.joints.len()).any(goes_on)
     }
 
-    /// Whether the column is past its balance, or has the energy to get there: with the blocks displaced as they are at the end, or as far as slides and
-    /// flights on other blocks may go on, by the energy that there is. A block that is off its support then has no balance.
+    /// Whether the column is past its balance or, on a ground that rests from now on, has the energy to get there: with the blocks displaced as they are at
+    /// the end, or as far as slides and flights on other blocks may go on, by the energy that there is. A block that is off its support then has no balance.
     fn may_overturn(&self, now: &Configuration) -> bool {
         let (column, slides) = (self.column(), &self.report.residual_slide);
+        let options = &self.problem.scene.options;
+        let barrier = |slides: Vec<f64>| Some(column.clone().displaced(slides).ok()?.barrier(options.overturn_angle));
+        if self.problem.scene.excitation.moves_after(options.t_end) {
+            return barrier(slides.clone()).is_none_or(|barrier| barrier.is_left(&now.theta));
+        }
         let above_rest = energy(column, now) - rest::energy(column).potential;
         let farther = |(interface, slide): (usize, &f64)| {
             // The weight that stops the slide is taken for the normal force; a flight with this energy goes no farther than twice the share.
@@ -426,10 +431,10 @@ impl<'p> SlidingRecorder<'p> {
             }
         };
         let farthest = slides.iter().enumerate().map(farther).collect();
-        [slides.clone(), farthest].into_iter().any(|slides| {
-            let Ok(column) = column.clone().displaced(slides) else { return true };
-            column.barrier(self.problem.scene.options.overturn_angle).may_be_passed(&now.theta, above_rest)
-        })
+        let may_be_passed = |slides: Vec<f64>| {
+            barrier(slides).is_none_or(|barrier| barrier.is_left(&now.theta) || barrier.is_within_reach(above_rest))
+        };
+        may_be_passed(slides.clone()) || may_be_passed(farthest)
     }
 
     /// The response of a run that ends in a state.

@@ -347,6 +347,20 @@ impl Findings {
             ),
             _ => writeln!(text, "impacts: {factors} of the plastic relative rate, base first"),
         };
+        if let ([block], Restitution::Eta(eta), Some(friction)) =
+            (&self.stacks[..], &scene.restitution, &scene.friction)
+        {
+            let needed = block.stack.centroid_height / block.stack.half_width * (1.0 - eta) / (1.0 + eta);
+            let kinetic = friction.kinetic[0];
+            if needed > kinetic {
+                let _ = writeln!(
+                    text,
+                    "  at impacts without a slide that takes a coefficient of friction of {}; with {} restitution is left out",
+                    significant(needed, 4),
+                    significant(kinetic, 4)
+                );
+            }
+        }
         let gains = |(stack, factor): &(&thresholds::Row, &f64)| {
             **factor != 1.0 && **factor * stack.housner_ratio > 1.0 + ROUNDING_OF_RATIOS
         };
@@ -370,7 +384,7 @@ impl Findings {
         };
         let _ = writeln!(
             text,
-            "\nfriction: {}; blocks slide and fly\neach interface by itself, the stack above as one body at rest:",
+            "\nfriction: {}; blocks slide and fly\neach interface by itself, the stack above as one body at rest (one that gives way lower down may spare those above):",
             coefficients(friction)
         );
         for contact in &self.contacts {
@@ -418,6 +432,10 @@ impl Findings {
                     ""
                 };
                 match &*interfaces {
+                    "" if pga >= lowest => writeln!(
+                        text,
+                        "  {pga:.4} g opens no interface of the column at rest: it does not act{weaker}, which takes {lowest:.4} g"
+                    ),
                     "" => writeln!(
                         text,
                         "  {pga:.4} g opens no interface of the column at rest, which takes {lowest:.4} g{weaker}"

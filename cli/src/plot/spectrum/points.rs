@@ -173,7 +173,7 @@ impl Points {
         match self.truncated {
             0 => String::new(),
             count => format!(
-                " {count} of {} are cut at solver.t_end: the ground still moves there, the column has the energy to overturn, or blocks slide on.",
+                " {count} of {} are cut at solver.t_end: the ground still moves there, the column may be falling, or blocks slide on.",
                 counted(self.len(), ["run", "runs"])
             ),
         }
