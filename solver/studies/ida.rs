@@ -387,6 +387,8 @@ impl Ida {
                 // A run that ended because no motion follows from the laws of contact stays undetermined, whatever its companions do.
                 if !trust.determined && found.fate != Fate::Undetermined {
                     found = open(&scene, response, trust.known_until());
+                } else if trust.slide_horizon.is_some() {
+                    found.residual_slides.clear();
                 }
             }
             Ok(found)

@@ -148,9 +148,13 @@ pub struct Companion {
     pub block: Option<usize>,
     /// When the companion ended `[s]`; zero for a companion that failed.
     pub ends_at: f64,
-    /// Last time at which the companion agreed with the run `[s]`; zero for a companion that failed, `None` where the two agree to the end.
+    /// Last time at which the angles of the companion agreed with those of the run `[s]`; zero for a companion that failed, `None` where they agree to the
+    /// end.
     pub parts_at: Option<f64>,
-    /// Largest relative difference of an angle or a slide from that of the run, as long as the two agreed, dimensionless; see [`super::AGREEMENT`].
+    /// The same of slides; `None` where they agree to the end, or nothing slides.
+    #[serde(default)]
+    pub slides_part_at: Option<f64>,
+    /// Largest relative difference of an angle or a slide from that of the run, as long as each agreed, dimensionless; see [`super::AGREEMENT`].
     pub difference: f64,
 }
 
@@ -162,6 +166,7 @@ impl Companion {
             block: run.and_then(Response::lost_block),
             ends_at: run.map_or(0.0, |run| run.t_final),
             parts_at: comparison.as_ref().map_or(Some(0.0), |found| found.parts_at),
+            slides_part_at: comparison.as_ref().map_or(Some(0.0), |found| found.slides_part_at),
             difference: comparison.map_or(0.0, |found| found.difference),
         }
     }
@@ -175,8 +180,9 @@ pub(super) fn amplification(companions: &[Companion]) -> (f64, bool) {
         let has_verdict = |one: &&Companion| one.verdict.is_some_and(|verdict| verdict != Verdict::Undetermined);
         let own = companions.iter().filter(|one| one.change.size() == Some(size)).filter(has_verdict);
         own.fold((0.0f64, false), |(most, parts), one| {
-            let grown = if one.parts_at.is_some() { AGREEMENT } else { one.difference };
-            (most.max(grown / size), parts || one.parts_at.is_some())
+            // Where angles part, slides do too.
+            let grown = if one.slides_part_at.is_some() { AGREEMENT } else { one.difference };
+            (most.max(grown / size), parts || one.slides_part_at.is_some())
         })
     };
     match [LARGEST_CHANGE, SMALL_CHANGE].map(growth) {
@@ -199,6 +205,7 @@ mod tests {
             block: None,
             ends_at: 1.0,
             parts_at: difference.is_none().then_some(0.5),
+            slides_part_at: difference.is_none().then_some(0.5),
             difference: difference.unwrap_or(1e-9),
         };
         amplification(&[companion(1e-6, large), companion(-1e-9, small)])

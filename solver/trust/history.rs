@@ -11,9 +11,11 @@ pub const AGREEMENT: f64 = 0.01;
 /// How far two runs agree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Comparison {
-    /// Time of the last row up to which all rows agree `[s]`; `None` if the runs agree to the end.
+    /// Time of the last row up to which the angles of all rows agree `[s]`; `None` if they agree to the end.
     pub parts_at: Option<f64>,
-    /// Largest relative difference of an angle or a slide as long as the runs agree, dimensionless.
+    /// The same of slides. Where angles part, slides do too; blocks that do not rock may slide apart.
+    pub slides_part_at: Option<f64>,
+    /// Largest relative difference of an angle or a slide as long as each agrees, dimensionless.
     pub difference: f64,
 }
 
@@ -24,39 +26,45 @@ impl Comparison {
         let scales: Vec<[f64; 2]> = (0..column.len())
             .map(|interface| [column.stack(interface).slenderness(), column.contact_half_width(interface)])
             .collect();
-        let mut difference = 0.0f64;
+        let (mut difference, mut slides_part_at) = (0.0f64, None);
+        // NaN agrees with nothing.
+        let agrees = |difference: f64| difference <= AGREEMENT;
         let rows = || run.samples.iter().zip(&other.samples);
         for (place, (row, others)) in rows().enumerate() {
-            let here = relative_difference(&scales, row, others);
-            // NaN agrees with nothing.
-            if here > AGREEMENT || here.is_nan() {
-                return Comparison { parts_at: Some(run.samples[place.saturating_sub(1)].t), difference };
+            let [angles, slides] = relative_differences(&scales, row, others);
+            let before = Some(run.samples[place.saturating_sub(1)].t);
+            if !agrees(angles) {
+                return Comparison { parts_at: before, slides_part_at: slides_part_at.or(before), difference };
             }
-            difference = difference.max(here);
+            difference = difference.max(angles);
+            match agrees(slides) {
+                true if slides_part_at.is_none() => difference = difference.max(slides),
+                true => {}
+                false => slides_part_at = slides_part_at.or(before),
+            }
         }
         let both = rows().count();
         let parts = Verdict::up_to_the_end(run.status) != Verdict::up_to_the_end(other.status)
             || run.samples.len().abs_diff(other.samples.len()) > 1;
         let last = |count: usize| run.samples[..count].last().map_or(0.0, |row| row.t);
-        Comparison { parts_at: parts.then(|| last(both)), difference }
+        let parts_at = parts.then(|| last(both));
+        Comparison { parts_at, slides_part_at: slides_part_at.or(parts_at), difference }
     }
 }
 
-/// Largest relative difference of an angle or a slide, as [`AGREEMENT`] defines it.
-fn relative_difference(scales: &[[f64; 2]], row: &Sample, other: &Sample) -> f64 {
-    let mut largest = 0.0f64;
+/// Largest relative differences of an angle and of a slide, as [`AGREEMENT`] defines them.
+fn relative_differences(scales: &[[f64; 2]], row: &Sample, other: &Sample) -> [f64; 2] {
+    // Not `max`, which drops NaN.
+    let larger = |most: f64, here: f64| if here > most || here.is_nan() { here } else { most };
+    let [mut angles, mut slides] = [0.0f64; 2];
     for (place, [slenderness, half_width]) in scales.iter().enumerate() {
         let (a, b) = (row.theta[place], other.theta[place]);
-        let mut here = (a - b).abs() / slenderness.max(a.abs()).max(b.abs()).max(f64::MIN_POSITIVE);
+        angles = larger(angles, (a - b).abs() / slenderness.max(a.abs()).max(b.abs()).max(f64::MIN_POSITIVE));
         if let (Some(a), Some(b)) = (row.slide.get(place), other.slide.get(place)) {
-            here = here.max((a - b).abs() / half_width);
-        }
-        // Not `max`, which drops NaN.
-        if here > largest || here.is_nan() {
-            largest = here;
+            slides = larger(slides, (a - b).abs() / half_width);
         }
     }
-    largest
+    [angles, slides]
 }
 
 #[cfg(test)]
@@ -83,8 +91,14 @@ mod tests {
             other.samples[4].slide[0] = share * 0.4;
             Comparison::of(&column, &run, &other)
         };
-        assert_eq!(at(0.02), Comparison { parts_at: Some(run.samples[3].t), difference: 0.0 });
-        assert_eq!(at(0.005), Comparison { parts_at: None, difference: 0.005 });
+        let slides_part_at = Some(run.samples[3].t);
+        assert_eq!(at(0.02), Comparison { parts_at: None, slides_part_at, difference: 0.0 });
+        assert_eq!(at(0.005), Comparison { parts_at: None, slides_part_at: None, difference: 0.005 });
+        // Where angles part, nothing is known of slides either.
+        let mut other = run.clone();
+        other.samples[4].theta[0] = 0.02 * column.slenderness();
+        let parts_at = slides_part_at;
+        assert_eq!(Comparison::of(&column, &run, &other), Comparison { parts_at, slides_part_at, difference: 0.0 });
     }
 
     #[test]

@@ -10,7 +10,7 @@
 //! ```
 //!
 //! The *horizon* is the time up to which the run agrees, to [`AGREEMENT`], with the companions that differ by the tolerance or by 1e-9. Up to then
-//! the scene determines the angles, and the solver finds them. A verdict is *determined* if it is certain within the horizon and all companions have
+//! the scene determines the angles, and the solver finds them; slides have a horizon of their own. A verdict is *determined* if it is certain within the horizon and all companions have
 //! the same one, those with changes of 1e-6 too: four of these, or 28 where they have parted from the run before its verdict is certain. Beyond the
 //! horizon neither angles nor verdict are known: slender stacks in long shaking are chaotic, and no tolerance helps. A verdict that is certain only then
 //! is *likely* if all companions have it, 24 further ones included. `undetermined` has another meaning: a run with friction ends so where no motion
@@ -78,6 +78,9 @@ pub struct Trust {
     pub solver_horizon: f64,
     /// Time up to which all companions agree with the run `[s]`: beyond it angles depend on the seventh digit of the inputs.
     pub input_horizon: f64,
+    /// Time up to which the slides of all companions agree with those of the run `[s]`; `None` where they agree to the end, or nothing slides.
+    #[serde(default)]
+    pub slide_horizon: Option<f64>,
     /// When the run ended `[s]`.
     pub ends_at: f64,
     /// Interval between the rows that were compared `[s]`: horizons are no finer. Zero in files that do not say it.
@@ -197,7 +200,10 @@ pub fn follow_run_observed(
     let input_horizon = until(|_| true);
     let is_shared = is_settled && same_verdict;
     let is_certain = is_shared && horizon >= certain_at;
-    let needs_further = is_shared && input_horizon < certain_at && (is_certain || asked.likely);
+    let slide_horizon = companions.iter().filter_map(|one| one.slides_part_at).reduce(f64::min);
+    // Slides that are not known may end in another collapse, though angles agree.
+    let known_until = input_horizon.min(slide_horizon.unwrap_or(ends_at));
+    let needs_further = is_shared && known_until < certain_at && (is_certain || asked.likely);
     let further = if needs_further { Some(Further::follow(scene, verdict, run)?) } else { None };
     let determined = is_certain && further.is_none_or(|further| further.others == 0);
     let (amplification, grows_on) = companions::amplification(&companions);
@@ -215,6 +221,7 @@ pub fn follow_run_observed(
         certain_at,
         horizon,
         input_horizon,
+        slide_horizon: slide_horizon.filter(|_| own.motion_at_contacts().is_some()),
         solver_horizon: until(|one| matches!(one.change, Change::Tolerance(_))),
         ends_at,
         compared_every: row_interval(&scene.column, ends_at),
@@ -367,6 +374,9 @@ impl Trust {
                 ),
             };
             let mut text = format!("{count} companions {until}, {grown}");
+            if let Some(slides) = self.slide_horizon.filter(|slides| *slides < self.input_horizon) {
+                text.push_str(&format!("; slides are known up to t = {slides:.4} s only"));
+            }
             if let Some(fold) = &self.fold {
                 text.push_str("; ");
                 text.push_str(&fold.sentence());

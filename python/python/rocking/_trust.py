@@ -25,6 +25,8 @@ class Trust:
     """Time up to which the companion with a tighter tolerance agrees [s]: the solver's own error is small up to then."""
     input_horizon: float
     """Time up to which all companions agree [s]: beyond it the angles depend on the seventh digit of the inputs."""
+    slide_horizon: float | None
+    """Time up to which the slides of all companions agree [s]; None where they agree to the end, or nothing slides."""
     ends_at: float
     """When the run ended [s]."""
     compared_every: float
@@ -37,7 +39,8 @@ class Trust:
     """Whether all companions lose the same block as the run, or none where the run loses none."""
     companions: tuple[dict[str, Any], ...] = field(repr=False)
     """For each companion: its ``change`` (``tolerance`` with the factor, or ``excitation`` or ``sizes`` with the relative change), its ``verdict`` (None if the
-    run failed), the ``block`` that is lost (None if none is), ``ends_at`` [s], ``parts_at`` [s] (None if it agrees to the end), and the largest
+    run failed), the ``block`` that is lost (None if none is), ``ends_at`` [s], ``parts_at`` and ``slides_part_at`` [s] (None where angles and slides agree to the
+    end), and the largest
     ``difference``, as in ``amplification``."""
     further: dict[str, int] | None
     """More companions with changes up to 1e-6: how many ``runs``, and how many ``others`` failed or have another verdict; None where the first ones decide. A
