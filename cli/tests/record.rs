@@ -93,7 +93,7 @@ fn what_the_file_lacks_is_asked_for_by_its_option() {
     folder.refused(&["record", &one, "--units", "gal"], &["sampling interval", "`--dt`"]);
     assert_eq!(folder.answers(&["record", &one, "--units", "gal", "--dt", "0.01", "--json"])["samples"], 42);
     let titled = fixture("table/skip-rows.txt");
-    folder.refused(&["record", &titled], &["line 2: 42 is the number of the rows", "`--skip-rows`"]);
+    folder.refused(&["record", &titled], &["line 1, column 1", "`Invented`", "`--skip-rows`"]);
     assert_eq!(folder.answers(&["record", &titled, "--skip-rows", "2", "--units", "cm/s2", "--json"])["samples"], 42);
     let several = fixture("table/three-columns.csv");
     folder.refused(&["record", &several], &["h1, up", "`--column`"]);
@@ -259,7 +259,7 @@ fn inputs_of_init_and_record_are_not_written_over() {
 /// The file has the word, not the option.
 #[test]
 fn words_of_a_record_are_quoted_as_they_are() {
-    let folder = Folder::with("a.txt", "1 units g dt 0.01\n0.1 0.2 0.3 0.4 0.5\n0.1 0.2 0.3 0.4 0.5\n");
+    let folder = Folder::with("a.txt", "units g d 0.01\n0.1 0.2 0.3 0.4 0.5\n0.1 0.2 0.3 0.4 0.5\n");
     folder.refused("record a.txt", &["`units` is no number", "`--skip-rows`"]);
     folder.write("b.txt", "0.1\n0.2\n0.3\n");
     folder.refused("record b.txt", &["`--units`"]);

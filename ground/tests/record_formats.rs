@@ -571,7 +571,7 @@ fn tables_are_refused_where_they_leave_a_choice_or_are_uneven() {
     let twice = error("t, a, a\n0, 1, 2\n0.1, 2, 3\n", &TextOptions { column: Some("a".into()), ..g.clone() });
     assert!(twice.contains("several columns are called `a`") && twice.contains("`column`: 2 or 3"), "{twice}");
     let title = error(&text("table/skip-rows.txt"), &g);
-    assert!(title.contains("skip_rows") && title.contains("line 2: 42 is the number of the rows below it"), "{title}");
+    assert!(title.contains("skip_rows") && title.contains("line 1, column 1: `Invented`"), "{title}");
     for (text, part) in [
         ("0 1\n0.1 1\n0.25 1\n0.3 1\n", "line 3: time 0.25 s comes 0.15 s after the one above, most come 0.1 s"),
         ("0 1\n0.1 1\n0.1 1\n", "line 3"),

@@ -29,7 +29,7 @@ pub fn interval(line: &str) -> Option<f64> {
     let unit = touching.trim_matches(|c: char| !c.is_alphabetic());
     let next = || rest[end..].split(|c: char| !c.is_alphanumeric()).find(|word| !word.is_empty());
     let second = if unit.is_empty() { next().and_then(second).unwrap_or(1.0) } else { second(unit)? };
-    Some(value * second)
+    Some(value * second).filter(|interval| *interval > 0.0)
 }
 
 /// The units of acceleration that a line states: in brackets, after `in` or `units`, or by a name that is nothing but a unit (`cm/s2`). A unit beside
@@ -93,6 +93,8 @@ mod tests {
             ("DT= 1/100 SEC", None),
             ("DT=1E-2SEC", None),
             ("WIDTH= 3", None),
+            ("DT= -0.01", None),
+            ("DT= 0,01", None),
         ] {
             assert_eq!(interval(text), dt, "{text}");
         }

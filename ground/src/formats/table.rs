@@ -33,7 +33,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
         _ => {}
     }
     let headings = &rows.headings.1;
-    if !headings.is_empty() && headings.len() != rows.columns {
+    if !headings.is_empty() && headings.len() != rows.columns && !rows.fills_rows {
         let problem = format!("{} name(s) above {} column(s)", headings.len(), rows.columns);
         return Err(rows.entry("name every column, or leave out the line with `skip_rows`").wrong(problem));
     }
@@ -67,15 +67,15 @@ fn refuse_spectrum(rows: &Rows) -> Result<(), RecordError> {
     Err(rows.entry(remedy).wrong(problem))
 }
 
-/// Refuses a column whose name says another quantity than acceleration.
+/// Refuses a column whose name says another quantity than acceleration, and samples that fill all columns if one of them does.
 fn refuse_other_quantity(rows: &Rows, chosen: usize) -> Result<(), RecordError> {
-    let heading = rows.headings.1.get(chosen);
-    let Some((name, quantity)) = heading.and_then(|heading| Some((&heading.name, heading.quantity()?))) else {
-        return Ok(());
-    };
-    match quantity {
-        Quantity::Acceleration => Ok(()),
-        Quantity::Time | Quantity::Spectrum | Quantity::Other => {
+    let headings = &rows.headings.1;
+    let of_samples =
+        if rows.fills_rows { &headings[..] } else { headings.get(chosen).map_or(&[][..], std::slice::from_ref) };
+    let is_other = |heading: &&Heading| heading.quantity().is_some_and(|quantity| quantity != Quantity::Acceleration);
+    match of_samples.iter().find(is_other) {
+        None => Ok(()),
+        Some(Heading { name, .. }) => {
             let remedy = "choose another column with `column`, or give the acceleration of the same record";
             Err(rows.entry(remedy).wrong(format!("column `{}` is no acceleration of the ground", brief(name))))
         }

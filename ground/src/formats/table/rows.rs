@@ -6,7 +6,7 @@
 use crate::error::RecordError;
 use crate::formats::header::Entry;
 use crate::formats::heading::{Heading, headings};
-use crate::formats::numbers::{Word, is_text, is_undefined, number, refused, split, words};
+use crate::formats::numbers::{Word, is_text, number, refused, split, words};
 use crate::formats::statement::{self, HEADER_LINES, names_count};
 use crate::options::TextOptions;
 use crate::unit::AccelerationUnit;
@@ -43,20 +43,19 @@ impl Rows {
             .filter(|(_, line)| words(line).next().is_some())
             .collect();
         let first = first_row(&body)?;
-        let above = first.checked_sub(2).map(|place| body[place].1);
-        let last_text = first.checked_sub(1).map(|last| body[last]).filter(|(_, text)| is_text(text));
-        let headings = last_text.map(|(line, text)| (line, headings(text, above)));
+        // The nearest line of text above the numbers has the headings; `DT= 0.01` may stand between.
+        let last_text = body[..first].iter().rposition(|(_, text)| is_text(text));
+        let above = last_text.and_then(|place| Some(body[place.checked_sub(1)?].1));
+        let headings = last_text.map(|place| (body[place].0, headings(body[place].1, above)));
         let has_all = |(_, names): &(usize, Vec<Heading>)| names.iter().any(|heading| is_all(&heading.name));
         let fills_rows = options.column.as_deref().is_some_and(is_all) && !headings.as_ref().is_some_and(has_all);
         let mut rows =
             numbers(&body[first..], headings.as_ref().map_or(0, |(_, headings)| headings.len()), fills_rows)?;
         let header = options.skip_rows..rows.lines[0] - 1;
-        if !fills_rows {
-            rows.headings = headings
-                .filter(|(_, headings)| !headings.is_empty())
-                .or_else(|| remark_with_headings(lines, header.clone(), rows.columns))
-                .unwrap_or_default();
-        }
+        rows.headings = headings
+            .filter(|(_, headings)| !headings.is_empty())
+            .or_else(|| remark_with_headings(lines, header.clone(), rows.columns))
+            .unwrap_or_default();
         let text = || header.clone().map(|index| (index + 1, lines[index]));
         rows.stated_units = statement::units(text().filter(|(line, _)| *line != rows.headings.0));
         rows.stated_intervals = text().filter_map(|(line, text)| Some((line, statement::interval(text)?))).collect();
@@ -102,10 +101,10 @@ fn is_all(name: &str) -> bool {
 /// Place of the first row of numbers among the lines with words.
 fn first_row(body: &[(usize, &str)]) -> Result<usize, RecordError> {
     let Some((first_line, first_text)) = body.first() else { return Err(RecordError::Empty) };
-    // The last line of text above the numbers has the headings; the lines before it are titles. A line with the number of samples is a title, as are
-    // all lines above it.
+    // The lines of text above the numbers are titles and headings. A line with the number of samples is a title, as are all lines above it, and so is one
+    // with their interval.
     let counted = body.iter().take(HEADER_LINES).rposition(|(_, text)| names_count(text)).map_or(0, |place| place + 1);
-    let is_header = |(_, text): &&(usize, &str)| is_text(text) || begins_with_a_word(text);
+    let is_header = |(_, text): &&(usize, &str)| is_text(text) || statement::interval(text).is_some();
     let first = counted + body[counted..].iter().take_while(is_header).count();
     if first == body.len() {
         let word = words(first_text).next().expect("lines without words are left out");
@@ -114,21 +113,15 @@ fn first_row(body: &[(usize, &str)]) -> Result<usize, RecordError> {
     Ok(first)
 }
 
-/// Whether a line begins with a word of several letters, which no number does however it is misspelt: `DT= 0.01`, `MAGNITUDE 4.0`.
-fn begins_with_a_word(line: &str) -> bool {
-    let first = words(line).next().map_or("", |word| word.text);
-    first.starts_with(char::is_alphabetic)
-        && first.chars().filter(|c| c.is_alphabetic()).count() > 1
-        && !is_undefined(first)
-}
-
 /// The rows of numbers, without what stands above them: `names` columns have names, zero if none has. Where samples fill row after row, the last row may be
 /// shorter, and each number is a row.
 fn numbers(body: &[(usize, &str)], names: usize, fills_rows: bool) -> Result<Rows, RecordError> {
     if !fills_rows {
         refuse_count(body)?;
     }
-    let decimal_comma = has_decimal_commas(body) || is_column_with_commas(body, names);
+    // The last of rows that samples fill may have one number, and nothing that parts it from others.
+    let full = if fills_rows && body.len() > 1 { &body[..body.len() - 1] } else { body };
+    let decimal_comma = has_decimal_commas(full) || is_column_with_commas(body, names);
     let mut rows = Rows {
         headings: Default::default(),
         lines: Vec::new(),
@@ -146,17 +139,49 @@ fn numbers(body: &[(usize, &str)], names: usize, fills_rows: bool) -> Result<Row
         let expected = if rows.lines.is_empty() { row.len() } else { rows.columns };
         let is_rest = fills_rows && place + 1 == body.len() && row.len() < expected;
         if row.len() != expected && !is_rest {
-            return Err(RecordError::Columns { line: *line, found: row.len(), expected });
+            return Err(match fills_rows {
+                true => uneven_row(*line, row.len(), expected),
+                false => RecordError::Columns { line: *line, found: row.len(), expected },
+            });
         }
         rows.columns = expected;
         rows.lines.extend(std::iter::repeat_n(*line, if fills_rows { row.len() } else { 1 }));
         rows.values.extend(row);
     }
     if fills_rows {
+        refuse_times_among(&rows, body[0].0)?;
         rows.columns = 1;
     }
     Ok(rows)
 }
+
+/// The error for a row that samples do not fill as they fill the first one.
+fn uneven_row(line: usize, found: usize, expected: usize) -> RecordError {
+    let remedy =
+        "only the last row may be shorter: mend this one, or skip the lines above the samples with `skip_rows`";
+    Entry { line, text: "", remedy }.wrong(format!("{found} number(s) where the first row has {expected}"))
+}
+
+/// Refuses numbers of which the first one is their number, or the first of each row a time, as samples that fill row after row.
+fn refuse_times_among(rows: &Rows, line: usize) -> Result<(), RecordError> {
+    let Rows { values, columns, .. } = rows;
+    let entry = |remedy: &'static str| Entry { line, text: "", remedy };
+    if values.len() > FEWEST_COUNTED && values[0] == (values.len() - 1) as f64 {
+        let problem = format!("{} is the number of the samples that follow, no sample", values[0]);
+        return Err(entry("skip the lines above the samples with `skip_rows`").wrong(problem));
+    }
+    let firsts: Vec<f64> = values.iter().copied().step_by(*columns).collect();
+    let step = firsts.get(1).map_or(0.0, |second| second - firsts[0]);
+    let is_even = |(row, first): (usize, &f64)| (first - firsts[0] - row as f64 * step).abs() <= EVEN_SHARE * step;
+    if *columns > 1 && firsts.len() > 2 && step > 0.0 && firsts.iter().enumerate().all(is_even) {
+        let problem = "the first numbers of the rows have equal steps, as times have, and samples have not";
+        return Err(entry("give the number of the column with the accelerations").wrong(problem));
+    }
+    Ok(())
+}
+
+/// Share of the step by which numbers with equal steps may be off: times are rounded to their last digit.
+const EVEN_SHARE: f64 = 0.05;
 
 /// Signs that begin a remark.
 pub const REMARK: [char; 2] = ['#', '%'];
@@ -219,12 +244,17 @@ fn unreadable(error: RecordError, body: &[(usize, &str)]) -> RecordError {
     }
 }
 
-/// Line, from 1, of the first of the rows of equally many numbers with which the lines end; the last row may be shorter. `None` if there is one row or none.
+/// Line, from 1, of the first of the rows of equally many numbers with which the lines end; the last row may be shorter. `None` if there are none, or if a
+/// line above them may be a row as well: a damaged one, one beside another damaged one, or one with decimal commas.
 fn first_of_last_rows(body: &[(usize, &str)]) -> Option<usize> {
-    let mut rows = body.iter().rev().map_while(|(line, text)| Some((*line, split(text, *line).ok()?.len())));
-    let (_, last) = rows.next()?;
-    let (line, columns) = rows.next().filter(|(_, columns)| *columns >= last)?;
-    rows.take_while(|(_, count)| *count == columns).last().map_or(Some(line), |(line, _)| Some(line))
+    let count = |(line, text): &(usize, &str)| Some(split(text, *line).ok()?.len());
+    let columns = count(body.iter().rev().nth(1)?)?;
+    let short = body.last().and_then(count).filter(|last| *last <= columns)?;
+    let rows =
+        body.iter().rev().skip(1).take_while(|line| count(line) == Some(columns)).count() + usize::from(short > 0);
+    let (above, rows) = body.split_at(body.len() - rows);
+    let may_be_a_row = |(_, text): &(usize, &str)| !is_text(text) && words(text).count() == columns;
+    (!above.iter().any(may_be_a_row) && !has_decimal_commas(rows)).then_some(rows.first()?.0)
 }
 
 /// Whether commas stand for decimal points. There must be commas but no points; semicolons, tabs or blanks must separate the columns; and

@@ -116,8 +116,13 @@ fn interval(
             {
                 let off = (at(row) - at(0) - row as f64 * own).abs() / own;
                 let problem = format!("time {} s is {off:.2} intervals of {own} s off its place", at(row));
-                let remedy = "fill in what is missing above; or, where nothing is missing and times have too few digits, leave them out with `lenient`";
-                warnings.push(Entry { line: rows.lines[row], text: "", remedy }.leniently(problem, options)?);
+                let entry = |remedy: &'static str| Entry { line: rows.lines[row], text: "", remedy };
+                if most_steps_are(rows, own, time, second) {
+                    return Err(entry("fill in what is missing above").wrong(problem));
+                }
+                let remedy = "the times have too few digits: leave them out with `lenient`, or give more digits";
+                let warning = entry(remedy).leniently(problem, options)?;
+                warnings.push(format!("{warning}; times are left out, and rows are taken every {own} s"));
                 Ok(own)
             }
             Some(_) => {
@@ -142,6 +147,15 @@ fn steps_are(rows: &Rows, step: f64, column: usize, scale: f64) -> bool {
     steps.sort_by(f64::total_cmp);
     let off = |place: usize| (steps[place] - step).abs() / step;
     off(0).max(off(steps.len() - 1)) <= GRID_TOLERANCE && off(steps.len() / 2) <= DRIFT_TOLERANCE
+}
+
+/// Whether most steps of a column are `step`; `scale` is the size of the column's unit.
+fn most_steps_are(rows: &Rows, step: f64, column: usize, scale: f64) -> bool {
+    let is_step = |row: &usize| {
+        let own = (rows.at(*row, column) - rows.at(*row - 1, column)) * scale;
+        (own - step).abs() <= GRID_TOLERANCE * step
+    };
+    2 * (1..rows.lines.len()).filter(is_step).count() > rows.lines.len()
 }
 
 /// The refusal of uneven times `at` the rows `[s]`: names the first row whose distance from the row before is not the usual one, such as the row after a missing
