@@ -141,7 +141,7 @@ pub enum Command {
     /// Writes the table of all runs, and beside it TABLE-stripes.csv (counts and fractiles per level), TABLE-fragility.csv (a curve per limit
     /// state) and TABLE-shares.csv (raw shares per state and level). A study that was interrupted continues when it is started again.
     ///
-    /// Each run has nine companions with a tighter tolerance or slightly changed ground motion or sizes (five if blocks are placed by `x`).
+    /// Each run has nine companions with a tighter tolerance or slightly changed ground motion, sizes or friction.
     /// A run counts as undecided if they do not confirm its verdict. `trust = false` in the study file turns them off.
     Ida(Ida),
     /// Fragility curves of a table that `rocking ida` has written, or a sweep with `ask = "peaks"` or `"slides"` over records and a measure.
@@ -203,8 +203,8 @@ pub struct Run {
     pub report: bool,
     /// Run the scene alone, without the companions that say how far its verdict can be trusted.
     ///
-    /// Companions are the same scene at a tighter tolerance, and with excitation and sizes changed by 1e-9 and 1e-6. They, and the search for the
-    /// change of the shaking that changes the verdict, take 7 to 30 times as long as the run on one thread; they run on all. Without
+    /// Companions are the same scene at a tighter tolerance, and with excitation, sizes and friction changed by 1e-9 and 1e-6. They, and the search for the
+    /// change of the shaking that changes the verdict, take 7 to 30 times as long as the run on one thread, and up to 70 times where nine are too few; they run on all. Without
     /// them `response.csv` and `events.json` are the same.
     #[arg(long)]
     pub no_trust: bool,

@@ -181,7 +181,7 @@ fn a_check_says_towards_which_side_a_displaced_column_is_weak() {
     assert_has(
         &told("0.4"),
         &[
-            "0.4000 g opens no interface of the column at rest: it does not act towards its weaker side, which takes 0.2444 g",
+            "0.4000 g opens no interface of the column at rest: the peak acts towards its stronger side; towards the weaker one 0.2444 g is enough",
         ],
     );
     assert_has(
@@ -249,7 +249,7 @@ fn a_ratio_that_friction_cannot_give_is_noted() {
     assert_has(
         &text,
         &[
-            "at impacts without a slide that takes a coefficient of friction of 0.4635; with 0.46 restitution is left out",
+            "an impact at which nothing slides needs a coefficient of friction of 0.4635; with 0.46 restitution is left out",
         ],
     );
     assert!(plastic > 2, "{plastic}");

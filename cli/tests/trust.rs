@@ -140,7 +140,12 @@ fn hops_that_are_not_followed_bound_the_horizon() {
     );
     let trust = &folder.json("hops/summary.json")["trust"];
     assert!(trust["solver_horizon"].as_f64().is_some_and(|horizon| horizon < 2.0), "{trust}");
-    assert_eq!((&trust["determined"], &trust["further"]["others"]), (&false.into(), &0.into()), "{trust}");
+    assert_eq!(
+        (&trust["determined"], &trust["likely"], &trust["further"]["others"]),
+        (&false.into(), &true.into(), &0.into()),
+        "{trust}"
+    );
+    folder.succeeds("report hops");
 }
 
 /// Four equal drums that slide and do not rock: equal coefficients of friction decide which of them slides, and no two joints are so equal. The column stands
@@ -165,6 +170,10 @@ fn slides_that_equal_friction_decides_are_not_known() {
         (own.as_f64().expect("a number") - other.as_f64().expect("a number")).abs() > 0.05
     };
     assert!(own.iter().zip(&slides()).any(far), "{own:?}");
+    // So it is where interfaces are equal in pairs.
+    let pairs = "static = [0.4, 0.9, 0.4, 0.9]\nkinetic = [0.3, 0.8, 0.3, 0.8]";
+    folder.write("s.toml", format!("{drums}{shaking}").replace("static = 0.4\nkinetic = 0.3", pairs));
+    assert_has(&folder.succeeds("run s.toml"), &["; slides are known up to t = 6."]);
 }
 
 /// Slides that are not known are left out of a study, where no drum overturns.

@@ -394,7 +394,7 @@ pub(crate) mod tests {
         let square = 4.0 * PI * PI * t * t / (3.0 * period * period);
         let expected =
             amplitude / 1.380119 * (square - 3.0) * (TAU * t / (3f64.sqrt() * period)) * (-0.5 * square).exp();
-        assert!((antisymmetric.value(centre + t) - expected).abs() < 1e-4, "beta is printed with five digits");
+        assert!((antisymmetric.value(centre + t) - expected).abs() < 1e-6, "beta is printed with seven digits");
     }
 
     #[test]

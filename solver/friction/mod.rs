@@ -109,7 +109,7 @@ impl Friction {
 }
 
 /// Largest coefficient of friction: far beyond any that is used up. With much larger ones, forces leave the range of doubles.
-const LARGEST_COEFFICIENT: f64 = 1e100;
+pub(crate) const LARGEST_COEFFICIENT: f64 = 1e100;
 
 /// Depth inside another block that a corner may have, at a landing and in an initial state, as a share of [`Column::size`].
 /// The search for a landing ends at far smaller depths.

@@ -82,7 +82,7 @@ pub enum Ask {
     Slides,
     /// As [`Ask::Peaks`], and what contacts need; of scenes without friction.
     Validity,
-    /// As [`Ask::Peaks`], and whether the verdict is determined, which nine companions of each run show (five where blocks are placed; [`crate::trust`]).
+    /// As [`Ask::Peaks`], and whether the verdict is determined, which nine companions of each run show ([`crate::trust`]).
     /// On one thread it takes 7 to 30 times as long.
     Trust,
 }

@@ -3,7 +3,7 @@
 use super::history::{AGREEMENT, Comparison};
 use super::verdict::Verdict;
 use crate::column::{Block, Column};
-use crate::friction::Friction;
+use crate::friction::{Friction, LARGEST_COEFFICIENT};
 use crate::response::Response;
 use crate::scene::{SMALLEST_STICK_ANGLE, Scene, TIGHTEST_RTOL};
 use rocking_ground::Motion;
@@ -32,8 +32,8 @@ pub enum Change {
     Tolerance(f64),
     /// Ground motion, initial angles, rates and velocities multiplied by one plus this; blocks placed by their centroids keep their angles.
     Excitation(f64),
-    /// Half-widths multiplied by `1 + x` and `1 - x` on alternate blocks, and so coefficients of friction on alternate interfaces; masses are unchanged.
-    /// Blocks placed by their centroids keep their widths.
+    /// Half-widths, and coefficients of friction, multiplied by a factor from `1 - x` to `1 + x` that differs from block to block and from interface to
+    /// interface; masses are unchanged. Blocks placed by their centroids keep their widths.
     Sizes(f64),
 }
 
@@ -71,8 +71,7 @@ impl Change {
             }
             Change::Sizes(change) => {
                 // Equal coefficients of equal drums decide which of them slides: no two joints are so equal.
-                changed.friction =
-                    scene.friction.as_ref().map(|friction| alternating(friction, scene.column.len(), change));
+                changed.friction = scene.friction.as_ref().map(|friction| uneven(friction, scene.column.len(), change));
                 // Blocks that are put in place one by one would be pushed into each other.
                 if scene.initial.x.is_empty() {
                     changed.column = widened(&scene.column, change)?;
@@ -108,15 +107,21 @@ pub(super) fn with_scaled_motion(scene: &Scene, factor: f64) -> Option<Scene> {
     Some(changed)
 }
 
-/// Factor of the block or interface at a place, from 0, in [`Change::Sizes`].
+/// Factor of the block or interface at a place, from 0, in [`Change::Sizes`]: no two are equal, and the first has the whole change.
 fn factor(place: usize, change: f64) -> f64 {
-    if place % 2 == 0 { 1.0 + change } else { 1.0 - change }
+    1.0 + change * libm::cos(RADIANS_BETWEEN_PLACES * place as f64)
 }
 
+/// Angle between the changes of two neighbours, as points of a circle: they differ much, and no place repeats another.
+const RADIANS_BETWEEN_PLACES: f64 = 2.4;
+
 /// Friction changed as by [`Change::Sizes`].
-fn alternating(friction: &Friction, blocks: usize, change: f64) -> Friction {
-    let changed =
-        |list: &[f64]| (0..blocks).map(|place| list[place.min(list.len() - 1)] * factor(place, change)).collect();
+fn uneven(friction: &Friction, blocks: usize, change: f64) -> Friction {
+    let of = |list: &[f64], place: usize| list[place.min(list.len() - 1)];
+    let changed = |list: &[f64]| {
+        let changed = |place: usize| (of(list, place) * factor(place, change)).min(LARGEST_COEFFICIENT);
+        (0..blocks).map(changed).collect()
+    };
     Friction::new(changed(&friction.fixed), changed(&friction.kinetic))
 }
 

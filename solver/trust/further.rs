@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 /// tenth.
 const OF_EACH_SIGN: usize = 12;
 
-/// Companions beside the nine, with changes of the excitation up to 1e-6: only their verdicts are computed.
+/// Companions beside the nine, with changes up to 1e-6, of the excitation and of the sizes in turns: only their verdicts are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Further {
@@ -35,9 +35,10 @@ impl Further {
     ) -> Result<Further, SolveError> {
         let short = verdict_alone(scene);
         let sizes = (1..=OF_EACH_SIGN).map(|place| LARGEST_CHANGE * place as f64 / (OF_EACH_SIGN + 1) as f64);
-        let changes: Vec<f64> = sizes.flat_map(|size| [size, -size]).collect();
-        let has_verdict = |change: &f64| {
-            let changed = Change::Excitation(*change).scene(&short)?;
+        let kinds = [Change::Excitation, Change::Sizes].into_iter().cycle();
+        let changes: Vec<Change> = sizes.zip(kinds).flat_map(|(size, change)| [size, -size].map(change)).collect();
+        let has_verdict = |change: &Change| {
+            let changed = change.scene(&short)?;
             let run = run(&changed);
             Some(match cancellation(&run) {
                 Some(cancelled) => Err(cancelled),
@@ -65,14 +66,15 @@ mod tests {
         let changes = Mutex::new(Vec::new());
         let further = Further::follow(&scene, Verdict::Stands, |changed| {
             let Some(Motion::SinePulse { amplitude, .. }) = changed.excitation.horizontal else { panic!("a pulse") };
-            changes.lock().expect("no panic").push(amplitude - 1.0);
+            let width = changed.column.blocks()[0].half_width() / 0.4;
+            changes.lock().expect("no panic").push((amplitude - 1.0) + (width - 1.0));
             crate::simulate(changed)
         });
         assert_eq!(further, Ok(Further { runs: 24, others: 0 }));
         let mut changes = changes.into_inner().expect("no panic");
         changes.sort_by(f64::total_cmp);
         let expected = (-12..=12).filter(|place| *place != 0).map(|place| f64::from(place) * 1e-6 / 13.0);
-        // An amplitude of one is known to 1e-16.
+        // An amplitude and a width of one are known to 1e-16.
         assert!(
             changes.iter().zip(expected).all(|(change, expected)| (change - expected).abs() < 3e-16),
             "{changes:?}"

@@ -67,6 +67,10 @@ pub struct Trust {
     pub outcome: String,
     /// Whether the verdict of the run is determined: certain within the horizon, and the same for all companions.
     pub determined: bool,
+    /// Whether a verdict that is not determined is that of all companions, 24 further ones included. A verdict that a tenth of all changes below a millionth
+    /// reverses is called likely with a chance of 8 %.
+    #[serde(default)]
+    pub likely: bool,
     /// The verdict of the run itself.
     pub verdict: Verdict,
     /// Time from which the verdict of the run was certain `[s]`: of overturning, of rest, of too little energy to overturn, or the end of the run.
@@ -110,7 +114,7 @@ pub struct Trust {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct TrustOptions {
-    /// Whether to run further companions where nine share a verdict that they do not determine, to know whether it is likely ([`Trust::is_likely`]).
+    /// Whether to run further companions where nine share a verdict that they do not determine, to know whether it is [likely](Trust::likely).
     pub likely: bool,
     /// Whether to search for the change of the shaking that changes the verdict.
     pub fold: bool,
@@ -152,7 +156,7 @@ pub fn follow(scene: &Scene) -> Result<(Response, Trust), SolveError> {
     Ok((response, trust))
 }
 
-/// Runs the companions of a finished run. On one thread this takes 7 to 30 times as long as the run; companions run
+/// Runs the companions of a finished run. On one thread this takes 7 to 30 times as long as the run, up to 70 times where nine are too few; companions run
 /// on all threads of the present rayon pool.
 ///
 /// # Errors
@@ -217,6 +221,7 @@ pub fn follow_run_observed(
     Ok(Trust {
         outcome: outcome.into(),
         determined,
+        likely: !determined && further.is_some_and(|further| further.others == 0),
         verdict,
         certain_at,
         horizon,
@@ -312,16 +317,10 @@ impl Trust {
         !self.determined && self.verdict != Verdict::Undetermined
     }
 
-    /// Whether a verdict that is not determined is that of all companions, 24 further ones included. Of changes below a millionth, one in ten or more would then
-    /// make another verdict with a chance of 8 % only.
-    pub fn is_likely(&self) -> bool {
-        !self.determined && self.further.is_some_and(|further| further.others == 0)
-    }
-
     /// Words before the outcome of a run whose verdict is not determined; otherwise empty.
     pub fn lead(&self) -> &'static str {
         match self.is_open() {
-            true if self.is_likely() => "not determined, but likely; this run ",
+            true if self.likely => "not determined, but likely; this run ",
             true => "not determined; this run ",
             false => "",
         }

@@ -233,13 +233,14 @@ fn verdicts_called_determined_are_those_of_other_changes() {
             changed.excitation.horizontal = motion.scaled(1.0 + random.within(-1e-6, 1e-6)).ok();
             simulate(&changed).map(|run| Verdict::of(&run)) != Ok(trust.verdict)
         };
-        let classes = [trust.determined, trust.is_likely()];
+        let classes = [trust.determined, trust.likely];
         let reversed = if classes.contains(&true) { (0..CHANGES_TRIED).filter(reverses).count() } else { 0 };
         Some((classes, reversed))
     };
     let found: Vec<([bool; 2], usize)> = (0..scenes_asked()).into_par_iter().filter_map(of_seed).collect();
     println!("{} runs", found.len());
-    for (class, (name, least_share)) in [("determined", 200), ("likely", 8)].into_iter().enumerate() {
+    // Measured: one of 682, and 10 of 135.
+    for (class, (name, most_one_in)) in [("determined", 200), ("likely", 8)].into_iter().enumerate() {
         let reversed: Vec<usize> =
             found.iter().filter(|(classes, _)| classes[class]).map(|(_, reversed)| *reversed).collect();
         let some: Vec<usize> = reversed.iter().copied().filter(|reversed| *reversed > 0).collect();
@@ -248,7 +249,7 @@ fn verdicts_called_determined_are_those_of_other_changes() {
             reversed.len(),
             some.len()
         );
-        assert!(least_share * some.len() <= reversed.len(), "more than one in {least_share}");
+        assert!(!reversed.is_empty() && most_one_in * some.len() <= reversed.len(), "more than one in {most_one_in}");
     }
 }
 

@@ -142,7 +142,7 @@ struct Pooling<'c> {
     records: BTreeSet<String>,
     /// The settings of all rows, in a table that numbers its runs.
     seen: HashSet<String>,
-    /// Number of runs that end before their ground motion, or with the energy to overturn.
+    /// Number of runs that end before their ground motion, or while the column may be falling.
     cut: usize,
 }
 
@@ -193,7 +193,7 @@ impl Pooling<'_> {
         });
         let cut = (self.cut > 0).then(|| {
             format!(
-                "{} run(s) end before their ground motion, with the energy to overturn, or sliding (`{TRUNCATED}`), and count as standing; a later `solver.t_end` settles them",
+                "{} run(s) end before their ground motion, while the column may be falling, or sliding (`{TRUNCATED}`), and count as standing; a later `solver.t_end` settles them",
                 self.cut
             )
         });

@@ -16,7 +16,7 @@ pub fn qualified(results: &Results, class: &'static str, words: String) -> (&'st
         return (class, words);
     }
     let plain = words.replace("<strong>", "").replace("</strong>", "").replacen("The column", "the column", 1);
-    let likely = if results.trust.as_ref().is_some_and(Trust::is_likely) { ", but likely" } else { "" };
+    let likely = if results.trust.as_ref().is_some_and(|trust| trust.likely) { ", but likely" } else { "" };
     ("undetermined", format!("The verdict is <strong>not determined</strong>{likely}. In this run {plain}"))
 }
 
@@ -26,11 +26,11 @@ pub fn paragraph(results: &Results) -> String {
         return "<p>Trust: whether slightly different inputs give another verdict was not examined (<code>rocking run --trust</code>).</p>\n".into();
     };
     let mut text = format!("<p>Trust: {}.", escape(&trust.sentence()));
-    if is_open(results) {
+    if is_open(results) && !trust.reaches_the_end() {
         let _ = write!(
             text,
-            " Companions are the same scene at a tighter tolerance, and with excitation, sizes and friction changed by 1e-9 and 1e-6, which is less \
-             than anybody can know. They move differently from then on."
+            " Companions are the same scene at a tighter tolerance, and with excitation and sizes (and coefficients of friction) changed by 1e-9 and 1e-6, which \
+             is less than anybody can know. They move differently from then on."
         );
     }
     text.push_str("</p>\n");

@@ -331,7 +331,7 @@ class Study:
         if "truncated" in names:
             cut = int((table["truncated"].astype("string").str.lower() == "true").fillna(False).sum())
             if cut:
-                told = f"{cut} run(s) end before their ground motion, with the energy to overturn, or sliding (`truncated`), and count as standing; a later t_end settles them"
+                told = f"{cut} run(s) end before their ground motion, while the column may be falling, or sliding (`truncated`), and count as standing; a later t_end settles them"
                 warn([told])
 
         def texts(name: str) -> list[str | None]:

@@ -15,6 +15,8 @@ class Trust:
     ``collapses``, ``not determined``, or ``ends undetermined`` (a run with friction that has no answer)."""
     determined: bool
     """Whether the verdict is determined: it is certain within the horizon, and all companions have it."""
+    likely: bool
+    """Whether a verdict that is not determined is that of all companions, 24 further ones included."""
     verdict: str
     """Verdict of the run itself: ``stands``, ``may-overturn``, ``overturns``, ``collapses`` or ``undetermined``."""
     certain_at: float
@@ -43,8 +45,7 @@ class Trust:
     end), and the largest
     ``difference``, as in ``amplification``."""
     further: dict[str, int] | None
-    """More companions with changes up to 1e-6: how many ``runs``, and how many ``others`` failed or have another verdict; None where the first ones decide. A
-    verdict that is not determined is likely where there are no others."""
+    """More companions with changes up to 1e-6: how many ``runs``, and how many ``others`` failed or have another verdict; None where the first ones decide."""
     fold: dict[str, Any] | None
     """The relative changes of the shaking that were ``tried``, each up and down, and in ``turns`` those of the smallest size that make another verdict. None for
     a run that is not determined, or without ground motion."""

@@ -27,13 +27,15 @@ use wide::f64x2;
 /// Lowest order.
 const MIN_ORDER: usize = 4;
 
-/// Weight of the last term but one in the error of a step, and of each term relative to the one after it. Terms before the last count because the last ones may be zero:
-/// every second one of an odd or even function; in resonance at the start from rest, two of four, and three of four of an even function. Where terms
-/// decay evenly, the last one is the error.
+/// Weight of the last term but one in the error of a step, and of each term relative to the one after it. Where terms decay evenly, the last one decides.
+/// Terms before it count because last ones may be zero: every second one of an odd or even function, two of four where a pulse in resonance moves a block
+/// from rest, and three of four if that motion is even in time.
 pub const BEFORE_LAST: f64 = 0.1;
 
 /// Number of last terms in the error of a step.
 pub const LAST_TERMS: usize = 4;
+
+const _: () = assert!(MIN_ORDER >= LAST_TERMS, "a step has as many terms");
 
 /// Factor by which terms are kept below the tolerance. Without it, errors reach the tolerance at best, and several times the tolerance where
 /// the motion lingers at an unstable balance. It shortens the step by an eighth.
@@ -173,9 +175,9 @@ impl<V: StateVector, L: StateVector> Taylor<V, L> {
     ) -> (usize, f64) {
         let (mut error, mut order, mut power) = (f64::INFINITY, MIN_ORDER - 1, TERMS_BELOW_TOLERANCE * h);
         let mut sizes = [0.0; LAST_TERMS];
-        for order in MIN_ORDER + 1 - LAST_TERMS..MIN_ORDER {
+        for early in MIN_ORDER + 1 - LAST_TERMS..MIN_ORDER {
             sizes.rotate_left(1);
-            sizes[LAST_TERMS - 1] = self.term(order, power, scale);
+            sizes[LAST_TERMS - 1] = self.term(early, power, scale);
             power *= h;
         }
         while order < self.series.largest_order {
@@ -377,10 +379,10 @@ fn fitting(error: f64, order: usize) -> (f64, bool) {
     if is_near || !is_too_long { (careful, is_near) } else { (SAFETY / rough_root(error, order), false) }
 }
 
-/// Error of a step from the sizes of its last terms, the last one last.
+/// Error of a step from the sizes of its last terms, the last one last. It is not a number if the last one is not: coefficients depend on those before them.
 #[inline(always)]
 pub fn error_of(sizes: [f64; LAST_TERMS]) -> f64 {
-    sizes.into_iter().fold(0.0, |before, size| larger(size, BEFORE_LAST * before))
+    sizes.into_iter().fold(0.0, |before, size| larger(BEFORE_LAST * before, size))
 }
 
 /// The larger of two; the second where one is not a number.

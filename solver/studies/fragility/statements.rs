@@ -37,9 +37,7 @@ impl Fragility {
         };
         let bias = self.bounds.map_or(String::new(), |[none, all]| {
             let [none, all] = [none, all].map(curve);
-            format!(
-                ", and without them the curve is mostly too steep: {none} if none of them reaches the state, {all} if all do"
-            )
+            format!(": {none} if none of them reaches the state, {all} if all do")
         });
         (self.undecided() > 0).then(|| left_out + &bias)
     }

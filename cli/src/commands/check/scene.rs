@@ -355,7 +355,7 @@ impl Findings {
             if needed > kinetic {
                 let _ = writeln!(
                     text,
-                    "  at impacts without a slide that takes a coefficient of friction of {}; with {} restitution is left out",
+                    "  an impact at which nothing slides needs a coefficient of friction of {}; with {} restitution is left out",
                     significant(needed, 4),
                     significant(kinetic, 4)
                 );
@@ -384,7 +384,7 @@ impl Findings {
         };
         let _ = writeln!(
             text,
-            "\nfriction: {}; blocks slide and fly\neach interface by itself, the stack above as one body at rest (one that gives way lower down may spare those above):",
+            "\nfriction: {}; blocks slide and fly\neach interface by itself, the stack above as one body at rest (if a lower one opens or slides, those above may hold):",
             coefficients(friction)
         );
         for contact in &self.contacts {
@@ -426,15 +426,12 @@ impl Findings {
             }
             (Some(motion), None) => {
                 let [pga, lowest] = [motion.pga, lowest].map(|acceleration| acceleration / gravity);
-                let weaker = if scene.column.slides().iter().any(|slide| *slide != 0.0) {
-                    " towards its weaker side"
-                } else {
-                    ""
-                };
+                let is_displaced = scene.column.slides().iter().any(|slide| *slide != 0.0);
+                let weaker = if is_displaced { " towards its weaker side" } else { "" };
                 match &*interfaces {
-                    "" if pga >= lowest => writeln!(
+                    "" if is_displaced && pga >= lowest => writeln!(
                         text,
-                        "  {pga:.4} g opens no interface of the column at rest: it does not act{weaker}, which takes {lowest:.4} g"
+                        "  {pga:.4} g opens no interface of the column at rest: the peak acts towards its stronger side; towards the weaker one {lowest:.4} g is enough"
                     ),
                     "" => writeln!(
                         text,
