@@ -247,6 +247,8 @@ fn samples_that_fill_row_after_row_are_read_as_all_columns() {
     }
     assert!(agrees(&read(&format!("A\nB\nIN UNITS OF G\nNPTS= 20, DT= .01\n{}", wrapped(8)), &options()), G, 0.01));
     // Commas may be decimal points, in the last number too.
+    let single: String = (0..20).map(|k| format!("0,{}\n", 1000 + 37 * k)).collect();
+    assert!(refused(&single, &all).contains("has a decimal comma"));
     for columns in [2, 3, 8, 19] {
         let text = wrapped(columns).replace('.', ",");
         assert!(agrees(&read(&text, &all), G, 0.01), "{columns}");
@@ -258,8 +260,13 @@ fn samples_that_fill_row_after_row_are_read_as_all_columns() {
             "line 2: 7 number(s) where the first row has 8; only the last row may be",
         ),
         (format!("20\n{}", wrapped(1)), "line 1: 20 is the number of the samples that follow"),
-        (table("time (s), acc (g)", seconds), "line 2: the first numbers of the rows have equal steps, as times have"),
-        (table("", seconds), "line 2: the first numbers of the rows have equal steps, as times have"),
+        (
+            table("", |k, a| format!("{a} {:.2}", 0.01 * (k + 2 * usize::from(k > 4)) as f64)),
+            "line 2: the numbers of column 2 never",
+        ),
+        (format!("20 0.01\n{}", wrapped(2)), "line 1: 20 is the number of the samples that follow"),
+        (table("time (s), acc (g)", seconds), "line 2: the numbers of column 1 never fall, as times, and samples do"),
+        (table("", seconds), "line 2: the numbers of column 1 never fall, as times, and samples do"),
         (table("acc (g), vel (m/s)", |_, a| format!("{a},{a}")), "line 1: column `vel` is no acceleration"),
     ] {
         let error = refused(&text, &all);
@@ -285,7 +292,14 @@ fn samples_that_fill_row_after_row_are_read_as_all_columns() {
 /// A line with the sampling interval is a header though it has a number. Other numbers above the samples may be damaged rows, or belong to names.
 #[test]
 fn headers_may_state_the_interval() {
-    for header in ["DT= 0.01", "dt = 0.01 s, units g", "Acceleration [g]\nDT= 0.01", "El Centro\nDT= 0.01 SEC\nNS"] {
+    for header in [
+        "DT= 0.01",
+        "DT=0.01",
+        "Acc in g, DT=0.01",
+        "dt = 0.01 s, units g",
+        "Acceleration [g]\nDT= 0.01",
+        "El Centro\nDT= 0.01 SEC\nNS",
+    ] {
         assert!(agrees(&read(&table(header, value), &in_g()), G, 0.01), "{header}");
     }
     let named = table("time (ms), acc (cm/s2)\nDT= 0.01", |k, a| format!("{},{a}", 10 * k));
@@ -300,6 +314,9 @@ fn headers_may_state_the_interval() {
         "NA 0.0",
         "O.12E-3 0.5",
         "DT= -0.01",
+        "Period (s), Sa (g), dt = 0.02",
+        "velocity in m/s, DT= 0.01",
+        "vel (cm/s) DT=0.01",
     ] {
         let error = refused(&table(first, seconds), &in_g());
         assert!(error.contains("is no number, and the file begins like none"), "{first}: {error}");

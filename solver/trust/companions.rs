@@ -156,7 +156,7 @@ pub struct Companion {
     /// Last time at which the angles of the companion agreed with those of the run `[s]`; zero for a companion that failed, `None` where they agree to the
     /// end.
     pub parts_at: Option<f64>,
-    /// The same of slides; `None` where they agree to the end, or nothing slides.
+    /// The same of slides; `None` where they agree to the end, and without friction.
     #[serde(default)]
     pub slides_part_at: Option<f64>,
     /// Largest relative difference of an angle or a slide from that of the run, as long as each agreed, dimensionless; see [`super::AGREEMENT`].
@@ -171,7 +171,7 @@ impl Companion {
             block: run.and_then(Response::lost_block),
             ends_at: run.map_or(0.0, |run| run.t_final),
             parts_at: comparison.as_ref().map_or(Some(0.0), |found| found.parts_at),
-            slides_part_at: comparison.as_ref().map_or(Some(0.0), |found| found.slides_part_at),
+            slides_part_at: comparison.as_ref().and_then(|found| found.slides_part_at),
             difference: comparison.map_or(0.0, |found| found.difference),
         }
     }
@@ -185,9 +185,9 @@ pub(super) fn amplification(companions: &[Companion]) -> (f64, bool) {
         let has_verdict = |one: &&Companion| one.verdict.is_some_and(|verdict| verdict != Verdict::Undetermined);
         let own = companions.iter().filter(|one| one.change.size() == Some(size)).filter(has_verdict);
         own.fold((0.0f64, false), |(most, parts), one| {
-            // Where angles part, slides do too.
-            let grown = if one.slides_part_at.is_some() { AGREEMENT } else { one.difference };
-            (most.max(grown / size), parts || one.slides_part_at.is_some())
+            let has_parted = one.parts_at.or(one.slides_part_at).is_some();
+            let grown = if has_parted { AGREEMENT } else { one.difference };
+            (most.max(grown / size), parts || has_parted)
         })
     };
     match [LARGEST_CHANGE, SMALL_CHANGE].map(growth) {
@@ -210,7 +210,7 @@ mod tests {
             block: None,
             ends_at: 1.0,
             parts_at: difference.is_none().then_some(0.5),
-            slides_part_at: difference.is_none().then_some(0.5),
+            slides_part_at: None,
             difference: difference.unwrap_or(1e-9),
         };
         amplification(&[companion(1e-6, large), companion(-1e-9, small)])

@@ -13,7 +13,7 @@ pub const AGREEMENT: f64 = 0.01;
 pub(super) struct Comparison {
     /// Time of the last row up to which the angles of all rows agree `[s]`; `None` if they agree to the end.
     pub parts_at: Option<f64>,
-    /// The same of slides. Where angles part, slides do too; blocks that do not rock may slide apart.
+    /// The same of slides; `None` without friction. Where angles part, slides do too; blocks that do not rock may slide apart.
     pub slides_part_at: Option<f64>,
     /// Largest relative difference of an angle or a slide as long as each agrees, dimensionless.
     pub difference: f64,
@@ -27,6 +27,8 @@ impl Comparison {
             .map(|interface| [column.stack(interface).slenderness(), column.contact_half_width(interface)])
             .collect();
         let (mut difference, mut slides_part_at) = (0.0f64, None);
+        let may_slide = run.samples.first().is_some_and(|row| !row.slide.is_empty());
+        let of_slides = |parts_at: Option<f64>| parts_at.filter(|_| may_slide);
         // NaN agrees with nothing.
         let agrees = |difference: f64| difference <= AGREEMENT;
         let rows = || run.samples.iter().zip(&other.samples);
@@ -34,7 +36,11 @@ impl Comparison {
             let [angles, slides] = relative_differences(&scales, row, others);
             let before = Some(run.samples[place.saturating_sub(1)].t);
             if !agrees(angles) {
-                return Comparison { parts_at: before, slides_part_at: slides_part_at.or(before), difference };
+                return Comparison {
+                    parts_at: before,
+                    slides_part_at: slides_part_at.or(of_slides(before)),
+                    difference,
+                };
             }
             difference = difference.max(angles);
             match agrees(slides) {
@@ -48,7 +54,7 @@ impl Comparison {
             || run.samples.len().abs_diff(other.samples.len()) > 1;
         let last = |count: usize| run.samples[..count].last().map_or(0.0, |row| row.t);
         let parts_at = parts.then(|| last(both));
-        Comparison { parts_at, slides_part_at: slides_part_at.or(parts_at), difference }
+        Comparison { parts_at, slides_part_at: slides_part_at.or(of_slides(parts_at)), difference }
     }
 }
 

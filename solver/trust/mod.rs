@@ -364,7 +364,10 @@ impl Trust {
             false => format!("small changes grow {} times", times(self.amplification)),
         };
         if self.determined {
+            let slides = self.slide_horizon.filter(|slides| *slides < self.input_horizon);
+            let slides_known = slides.map(|slides| format!("slides are known up to t = {slides:.4} s only"));
             let until = match self.reaches_the_end() {
+                true if slides.is_some() => "agree to the end but for slides".to_string(),
                 true => "agree to the end".to_string(),
                 false => format!(
                     "have this verdict and move alike up to t = {:.4} s{}",
@@ -373,8 +376,9 @@ impl Trust {
                 ),
             };
             let mut text = format!("{count} companions {until}, {grown}");
-            if let Some(slides) = self.slide_horizon.filter(|slides| *slides < self.input_horizon) {
-                text.push_str(&format!("; slides are known up to t = {slides:.4} s only"));
+            if let Some(known) = slides_known {
+                text.push_str("; ");
+                text.push_str(&known);
             }
             if let Some(fold) = &self.fold {
                 text.push_str("; ");

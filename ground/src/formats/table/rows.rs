@@ -5,8 +5,8 @@
 
 use crate::error::RecordError;
 use crate::formats::header::Entry;
-use crate::formats::heading::{Heading, headings};
-use crate::formats::numbers::{Word, is_text, number, refused, split, words};
+use crate::formats::heading::{Heading, Quantity, headings};
+use crate::formats::numbers::{Word, comma_refused, has_decimal_comma, is_text, number, refused, split, words};
 use crate::formats::statement::{self, HEADER_LINES, names_count};
 use crate::options::TextOptions;
 use crate::unit::AccelerationUnit;
@@ -44,7 +44,7 @@ impl Rows {
             .collect();
         let first = first_row(&body)?;
         // The nearest line of text above the numbers has the headings; `DT= 0.01` may stand between.
-        let last_text = body[..first].iter().rposition(|(_, text)| is_text(text));
+        let last_text = body[..first].iter().rposition(|(_, text)| statement::interval(text).is_none());
         let above = last_text.and_then(|place| Some(body[place.checked_sub(1)?].1));
         let headings = last_text.map(|place| (body[place].0, headings(body[place].1, above)));
         let has_all = |(_, names): &(usize, Vec<Heading>)| names.iter().any(|heading| is_all(&heading.name));
@@ -104,13 +104,21 @@ fn first_row(body: &[(usize, &str)]) -> Result<usize, RecordError> {
     // The lines of text above the numbers are titles and headings. A line with the number of samples is a title, as are all lines above it, and so is one
     // with their interval.
     let counted = body.iter().take(HEADER_LINES).rposition(|(_, text)| names_count(text)).map_or(0, |place| place + 1);
-    let is_header = |(_, text): &&(usize, &str)| is_text(text) || statement::interval(text).is_some();
+    let is_header = |(_, text): &&(usize, &str)| match statement::interval(text) {
+        Some(_) => !names_another_quantity(text),
+        None => is_text(text),
+    };
     let first = counted + body[counted..].iter().take_while(is_header).count();
     if first == body.len() {
         let word = words(first_text).next().expect("lines without words are left out");
         return Err(unreadable(refused(*first_line, word), body));
     }
     Ok(first)
+}
+
+/// Whether a line names a quantity that is neither acceleration nor time, such as a velocity, or the period of a spectrum.
+fn names_another_quantity(line: &str) -> bool {
+    matches!(Quantity::of(line), Some(Quantity::Spectrum | Quantity::Other))
 }
 
 /// The rows of numbers, without what stands above them: `names` columns have names, zero if none has. Where samples fill row after row, the last row may be
@@ -122,6 +130,9 @@ fn numbers(body: &[(usize, &str)], names: usize, fills_rows: bool) -> Result<Row
     // The last of rows that samples fill may have one number, and nothing that parts it from others.
     let full = if fills_rows && body.len() > 1 { &body[..body.len() - 1] } else { body };
     let decimal_comma = has_decimal_commas(full) || is_column_with_commas(body, names);
+    if fills_rows && !decimal_comma {
+        refuse_single_commas(body)?;
+    }
     let mut rows = Rows {
         headings: Default::default(),
         lines: Vec::new(),
@@ -162,26 +173,39 @@ fn uneven_row(line: usize, found: usize, expected: usize) -> RecordError {
     Entry { line, text: "", remedy }.wrong(format!("{found} number(s) where the first row has {expected}"))
 }
 
-/// Refuses numbers of which the first one is their number, or the first of each row a time, as samples that fill row after row.
+/// Refuses rows of one number with a decimal comma each, or of two whole numbers: nothing tells which.
+fn refuse_single_commas(body: &[(usize, &str)]) -> Result<(), RecordError> {
+    let is_single = |(_, text): &(usize, &str)| has_decimal_comma(text.trim().trim_end_matches(';').trim_end());
+    match body.first().and_then(|(line, text)| Some((*line, words(text).next()?))) {
+        Some((line, word)) if body.iter().all(is_single) => Err(comma_refused(line, word)),
+        _ => Ok(()),
+    }
+}
+
+/// Refuses numbers of which the first one is their number, or those of a column times, as samples that fill row after row.
 fn refuse_times_among(rows: &Rows, line: usize) -> Result<(), RecordError> {
     let Rows { values, columns, .. } = rows;
     let entry = |remedy: &'static str| Entry { line, text: "", remedy };
-    if values.len() > FEWEST_COUNTED && values[0] == (values.len() - 1) as f64 {
+    let is_count = |others: usize| 2 * others < values.len() && values[0] == (values.len() - others) as f64;
+    if values.len() > FEWEST_COUNTED && [1, 2, *columns].into_iter().any(is_count) {
         let problem = format!("{} is the number of the samples that follow, no sample", values[0]);
         return Err(entry("skip the lines above the samples with `skip_rows`").wrong(problem));
     }
-    let firsts: Vec<f64> = values.iter().copied().step_by(*columns).collect();
-    let step = firsts.get(1).map_or(0.0, |second| second - firsts[0]);
-    let is_even = |(row, first): (usize, &f64)| (first - firsts[0] - row as f64 * step).abs() <= EVEN_SHARE * step;
-    if *columns > 1 && firsts.len() > 2 && step > 0.0 && firsts.iter().enumerate().all(is_even) {
-        let problem = "the first numbers of the rows have equal steps, as times have, and samples have not";
-        return Err(entry("give the number of the column with the accelerations").wrong(problem));
+    let never_falls = |column: usize| {
+        let numbers: Vec<f64> = values.iter().copied().skip(column).step_by(*columns).collect();
+        numbers.len() >= FEWEST_RISING && numbers.is_sorted() && numbers.first() < numbers.last()
+    };
+    let rising: Vec<usize> = (0..*columns).filter(|column| never_falls(*column)).collect();
+    if !rising.is_empty() && rising.len() < *columns {
+        let problem = format!("the numbers of column {} never fall, as times, and samples do", rising[0] + 1);
+        let remedy = "give the number of the column with the accelerations, or write one sample per line";
+        return Err(entry(remedy).wrong(problem));
     }
     Ok(())
 }
 
-/// Share of the step by which numbers with equal steps may be off: times are rounded to their last digit.
-const EVEN_SHARE: f64 = 0.05;
+/// Fewest rows in which a column that never falls is one of times: samples in a column rise eight times by chance in one of 40,000 cases.
+const FEWEST_RISING: usize = 8;
 
 /// Signs that begin a remark.
 pub const REMARK: [char; 2] = ['#', '%'];
@@ -245,7 +269,7 @@ fn unreadable(error: RecordError, body: &[(usize, &str)]) -> RecordError {
 }
 
 /// Line, from 1, of the first of the rows of equally many numbers with which the lines end; the last row may be shorter. `None` if there are none, or if a
-/// line above them may be a row as well: a damaged one, one beside another damaged one, or one with decimal commas.
+/// line above them may be a row as well (a damaged one, one beside another damaged one, one with decimal commas), or names another quantity than acceleration.
 fn first_of_last_rows(body: &[(usize, &str)]) -> Option<usize> {
     let count = |(line, text): &(usize, &str)| Some(split(text, *line).ok()?.len());
     let columns = count(body.iter().rev().nth(1)?)?;
@@ -254,7 +278,9 @@ fn first_of_last_rows(body: &[(usize, &str)]) -> Option<usize> {
         body.iter().rev().skip(1).take_while(|line| count(line) == Some(columns)).count() + usize::from(short > 0);
     let (above, rows) = body.split_at(body.len() - rows);
     let may_be_a_row = |(_, text): &(usize, &str)| !is_text(text) && words(text).count() == columns;
-    (!above.iter().any(may_be_a_row) && !has_decimal_commas(rows)).then_some(rows.first()?.0)
+    let is_of_another = |(_, text): &(usize, &str)| names_another_quantity(text);
+    (!above.iter().any(|line| may_be_a_row(line) || is_of_another(line)) && !has_decimal_commas(rows))
+        .then_some(rows.first()?.0)
 }
 
 /// Whether commas stand for decimal points. There must be commas but no points; semicolons, tabs or blanks must separate the columns; and
