@@ -518,5 +518,6 @@ fn slides_at_a_loose_tolerance() {
         });
         worst = own.iter().zip(&tight).fold(worst, |worst, (own, tight)| worst.max((own - tight).abs()));
     }
+    // Of all 3,600 points it is 1.6e-7 m; it was 3.7e-6 m when the last two terms decided.
     assert!(worst < 3e-7, "{worst:e}");
 }

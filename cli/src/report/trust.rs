@@ -30,7 +30,7 @@ pub fn paragraph(results: &Results) -> String {
         let _ = write!(
             text,
             " Companions are the same scene at a tighter tolerance, and with excitation and sizes (and coefficients of friction) changed by 1e-9 and 1e-6, which \
-             is less than anybody can know. Where they part, they move differently from then on."
+             is less than anybody can know. Once they part, each moves in its own way, and the scene does not decide which of these motions it is."
         );
     }
     text.push_str("</p>\n");

@@ -1,7 +1,7 @@
 //! From the lines of a table to rows of numbers, names of columns, and what the text above the numbers states.
 //!
-//! Blanks, tabs, commas and semicolons separate the columns. If others than commas do, commas may be decimal points. Text above the numbers is a header: the
-//! last line of it, unless it has numbers, names the columns.
+//! Blanks, tabs, commas and semicolons separate the columns. If others than commas do, commas may be decimal points. Text above the numbers, and a line
+//! with the sampling interval, is a header; the nearest line of text without an interval names the columns.
 
 use crate::error::RecordError;
 use crate::formats::header::Entry;
@@ -175,9 +175,13 @@ fn uneven_row(line: usize, found: usize, expected: usize) -> RecordError {
 
 /// Refuses rows of one number with a decimal comma each, or of two whole numbers: nothing tells which.
 fn refuse_single_commas(body: &[(usize, &str)]) -> Result<(), RecordError> {
-    let is_single = |(_, text): &(usize, &str)| has_decimal_comma(text.trim().trim_end_matches(';').trim_end());
-    match body.first().and_then(|(line, text)| Some((*line, words(text).next()?))) {
-        Some((line, word)) if body.iter().all(is_single) => Err(comma_refused(line, word)),
+    let cells = || body.iter().map(|(_, text)| text.trim().trim_end_matches(';').trim_end());
+    match cells().next() {
+        Some(text) if cells().all(has_decimal_comma) => {
+            let (line, row) = body[0];
+            let column = row.chars().take_while(|c| c.is_whitespace()).count() + 1;
+            Err(comma_refused(line, Word { column, text }))
+        }
         _ => Ok(()),
     }
 }
@@ -197,14 +201,14 @@ fn refuse_times_among(rows: &Rows, line: usize) -> Result<(), RecordError> {
     };
     let rising: Vec<usize> = (0..*columns).filter(|column| never_falls(*column)).collect();
     if !rising.is_empty() && rising.len() < *columns {
-        let problem = format!("the numbers of column {} never fall, as times, and samples do", rising[0] + 1);
+        let problem = format!("the numbers of column {} never fall: they are times and no samples", rising[0] + 1);
         let remedy = "give the number of the column with the accelerations, or write one sample per line";
         return Err(entry(remedy).wrong(problem));
     }
     Ok(())
 }
 
-/// Fewest rows in which a column that never falls is one of times: samples in a column rise eight times by chance in one of 40,000 cases.
+/// Fewest rows in which a column that never falls is one of times: eight random numbers are in ascending order in one of 40,000 cases.
 const FEWEST_RISING: usize = 8;
 
 /// Signs that begin a remark.
