@@ -194,7 +194,8 @@ impl Folder {
         drafts.push((rows, self.draft(|file| history(file, scene, &response.samples))?));
         drafts.push((listed, self.draft(|file| events(file, &response.events))?));
         let of_run = run.summary(drafts.iter().map(|(name, draft)| (*name, draft.digest)).collect());
-        let written = self.draft(|file| serde_json::to_writer_pretty(file, &Explicit(&of_run)).map_err(Into::into))?;
+        let written =
+            self.draft(|file| file.write_all(serde_json::to_string_pretty(&Explicit(&of_run))?.as_bytes()))?;
         drafts.push((summary, written));
         self.put_in_place(&drafts, &run.outdated)
     }
