@@ -124,7 +124,7 @@ impl Reader<'_> {
                 let start = start(table)?;
                 self.record(table, start, column).map(Motion::Record)
             }
-            "synthetic" => Ok(Motion::Record(synthetic(table, column)?)),
+            "synthetic" => Ok(Motion::Record(self.synthetic(table, column)?)),
             _ => Ok(pulse(table, &kind, Scales::of(column))?),
         }
     }
@@ -181,6 +181,35 @@ impl Reader<'_> {
                 .scaled_to(target.measure, target.size, column.gravity())
                 .map_err(|error| table.wrong(key, error.to_string(), "use another record or another size"))?,
             (None, None) => record,
+        };
+        Ok(record.starting_at(start))
+    }
+
+    /// A record of filtered noise, scaled to a size that the scene must give.
+    fn synthetic(&self, table: &mut Table, column: &Column) -> Result<Record, Wrong> {
+        let (start, mut synthetic) = (start(table)?, noise(table)?);
+        let Some(target) = target(table, column)? else {
+            let remedy = format!("give one of {}", NAMES.map(|name| format!("`{name}`")).join(", "));
+            return Err(table.missing("pga", &remedy));
+        };
+        if target.measure == Measure::Pga {
+            synthetic.pga = target.size;
+        }
+        let made = self.records.map_or_else(|| synthetic.record(), |records| records.synthetic(&synthetic));
+        let record = made.map_err(|error| {
+            let key = match error {
+                RecordError::OutOfRange { name: "pga", .. } => target.key,
+                RecordError::OutOfRange { name, .. } => name,
+                _ => "kind",
+            };
+            table.wrong(key, error.to_string(), "correct the number")
+        })?;
+        let record = match target.measure {
+            Measure::Pga => record,
+            measure => {
+                let scaled = record.scaled_to(measure, target.size, column.gravity());
+                scaled.map_err(|error| table.wrong(target.key, error.to_string(), "correct the number"))?
+            }
         };
         Ok(record.starting_at(start))
     }
@@ -403,32 +432,4 @@ pub(crate) fn noise(table: &mut Table) -> Result<Synthetic, Wrong> {
         *number = table.positive(key)?.unwrap_or(*number);
     }
     Ok(synthetic)
-}
-
-/// A record of filtered noise, scaled to a size that the scene must give.
-fn synthetic(table: &mut Table, column: &Column) -> Result<Record, Wrong> {
-    let (start, mut synthetic) = (start(table)?, noise(table)?);
-    let Some(target) = target(table, column)? else {
-        let remedy = format!("give one of {}", NAMES.map(|name| format!("`{name}`")).join(", "));
-        return Err(table.missing("pga", &remedy));
-    };
-    if target.measure == Measure::Pga {
-        synthetic.pga = target.size;
-    }
-    let record = synthetic.record().map_err(|error| {
-        let key = match error {
-            RecordError::OutOfRange { name: "pga", .. } => target.key,
-            RecordError::OutOfRange { name, .. } => name,
-            _ => "kind",
-        };
-        table.wrong(key, error.to_string(), "correct the number")
-    })?;
-    let record = match target.measure {
-        Measure::Pga => record,
-        measure => {
-            let scaled = record.scaled_to(measure, target.size, column.gravity());
-            scaled.map_err(|error| table.wrong(target.key, error.to_string(), "correct the number"))?
-        }
-    };
-    Ok(record.starting_at(start))
 }

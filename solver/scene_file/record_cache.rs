@@ -1,7 +1,7 @@
 //! Cache of records and of lists of folders, for scenes that are read again and again.
 
-use rocking_ground::Record;
-use std::collections::HashMap;
+use rocking_ground::{Record, RecordError, Synthetic};
+use std::collections::{HashMap, VecDeque};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -9,8 +9,13 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 #[derive(Debug, Default)]
 pub(crate) struct Records {
     records: Mutex<HashMap<(PathBuf, String), Record>>,
+    /// Synthetic records, the latest first.
+    synthetic: Mutex<VecDeque<(Synthetic, Record)>>,
     folders: Mutex<HashMap<PathBuf, Listed>>,
 }
+
+/// Number of synthetic records that are kept. Scenes that follow each other mostly have the same one, in each thread its own.
+const SYNTHETIC_KEPT: usize = 16;
 
 /// The records of a folder, each with the names of its files.
 pub(crate) type Listed = Arc<[(String, Vec<String>)]>;
@@ -38,6 +43,22 @@ impl Records {
         locked(&self.records).insert(key, record.clone());
     }
 
+    /// The record of this noise, made if it is not among those that are kept.
+    ///
+    /// # Errors
+    /// [`RecordError`]
+    pub fn synthetic(&self, noise: &Synthetic) -> Result<Record, RecordError> {
+        let kept = locked(&self.synthetic).iter().find(|(own, _)| own == noise).map(|(_, record)| record.clone());
+        if let Some(record) = kept {
+            return Ok(record);
+        }
+        let record = noise.record()?;
+        let mut latest = locked(&self.synthetic);
+        latest.truncate(SYNTHETIC_KEPT - 1);
+        latest.push_front((*noise, record.clone()));
+        Ok(record)
+    }
+
     /// The list of a folder's records, if it is kept.
     pub fn folder(&self, folder: &Path) -> Option<Listed> {
         locked(&self.folders).get(folder).cloned()
@@ -46,5 +67,24 @@ impl Records {
     /// Keeps the list of a folder's records: their names and files.
     pub fn keep_folder(&self, folder: PathBuf, listed: &Listed) {
         locked(&self.folders).insert(folder, listed.clone());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn synthetic_records_are_kept_and_the_oldest_goes_first() {
+        let records = Records::default();
+        let noise = |seed: u64| Synthetic { seed, duration: 1.0, ..Synthetic::default() };
+        for seed in (0..20).chain([19, 3, 0]) {
+            let record = records.synthetic(&noise(seed)).expect("a valid record");
+            assert_eq!(record, noise(seed).record().expect("a valid record"), "seed {seed}");
+        }
+        let seeds: Vec<u64> = locked(&records.synthetic).iter().map(|(noise, _)| noise.seed).collect();
+        assert_eq!(seeds, [0, 3].into_iter().chain((6..20).rev()).collect::<Vec<_>>());
+        assert!(records.synthetic(&Synthetic { dt: -1.0, ..noise(0) }).is_err());
+        assert_eq!(locked(&records.synthetic).len(), SYNTHETIC_KEPT);
     }
 }
