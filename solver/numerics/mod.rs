@@ -1,4 +1,4 @@
-//! Numerical methods that know nothing of blocks: scalars and sines, polynomials, guards, complementarity, methods of integration.
+//! Numerical methods that know nothing of blocks: scalars and sines, polynomials, guards, complementarity, random numbers, methods of integration.
 //!
 //! Nothing here imports from another room of the library.
 
@@ -8,6 +8,7 @@ pub mod lemke;
 pub mod ode;
 pub mod per_block;
 pub mod polynomial;
+pub mod random;
 pub mod scalar;
 pub mod scalar_types;
 pub mod sines;

@@ -2,7 +2,7 @@
 //! without the others, and the same seed gives the same samples on every machine.
 
 use crate::names::named;
-use rand_pcg::Pcg64;
+use crate::numerics::random::{generator, mixed};
 use rand_pcg::rand_core::Rng;
 
 /// Method by which the samples of distributed axes are drawn.
@@ -56,18 +56,10 @@ impl Sampling {
 
     /// A random number of its own for each sample and dimension, 0 to below 1.
     fn random(&self, sample: u32, dimension: usize) -> f64 {
-        let mut generator = Pcg64::new(u128::from(self.seed), dimension as u128);
+        let mut generator = generator(self.seed, dimension as u64);
         generator.advance(u128::from(sample));
         (generator.next_u64() >> 11) as f64 / (1u64 << 53) as f64
     }
-}
-
-/// Hash of a number, in which each bit depends on all bits of the number: the finalizer of SplitMix64 (Steele, Lea & Flood 2014).
-fn mixed(number: u64) -> u64 {
-    let mut z = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }
 
 /// Rounds of the Feistel network. Four make a permutation that looks random (Luby & Rackoff 1988); two more because the halves are short.

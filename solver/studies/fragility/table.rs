@@ -1,9 +1,9 @@
 //! Runs by record and level: counts, records that come back, bands by resampling.
 
 use super::options::FragilityOptions;
+use crate::numerics::random::generator;
 use crate::studies::observation::{LimitState, Observation};
 use crate::studies::probit::{Maximum, Probit, Trial, fit};
-use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::Rng;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -132,11 +132,7 @@ impl Table {
 
     /// The curve of a replicate: of as many records as there are, drawn with replacement. `None` if these determine no rising curve.
     fn resampled(&self, own: &[Vec<(usize, f64)>], seed: u64, replicate: usize) -> Option<Probit> {
-        let mut generator = Pcg64Mcg::new((u128::from(seed) << 64) | (replicate as u128 + 1));
-        // The first numbers from neighbouring seeds are alike, and are skipped.
-        (0..8).for_each(|_| {
-            generator.next_u64();
-        });
+        let mut generator = generator(seed, replicate as u64);
         let mut trials: Vec<Trial> =
             self.levels.iter().map(|level| Trial { level: *level, runs: 0.0, reached: 0.0 }).collect();
         for _ in 0..own.len() {
