@@ -309,8 +309,8 @@ impl GroundWithBounds {
         let GroundWithBounds { t, ground, rates, bends, gravity } = self;
         let RestGuard { arm: [holding, tipping], side, slack } = guard;
         let slope = holding * rates[1] + f64::from(side.sign()) * tipping * rates[0];
-        let bend = holding * bends[1] + tipping * bends[0];
-        let depth = TOUCH * (holding * ground.gravity.abs().max(*gravity) + tipping * ground.x.abs());
+        let bend = holding.abs() * bends[1] + tipping * bends[0];
+        let depth = TOUCH * (holding.abs() * ground.gravity.abs().max(*gravity) + tipping * ground.x.abs());
         if slack > 0.0 || slope * slope > 2.0 * bend * depth {
             return None;
         }
@@ -327,8 +327,8 @@ impl GroundWithBounds {
         let sign = f64::from(side.sign());
         let value = self.value(guard);
         let slope = holding * rates[1] + sign * tipping * rates[0];
-        let bend = holding * bends[1] + tipping * bends[0];
-        let scale = holding * ground.gravity.abs() + tipping * ground.x.abs();
+        let bend = holding.abs() * bends[1] + tipping * bends[0];
+        let scale = holding.abs() * ground.gravity.abs() + tipping * ground.x.abs();
         if value <= GUARD_ROUNDING * scale && (slope < 0.0 || (slack > 0.0 && value < 0.0)) {
             return Some(0.0);
         }
@@ -373,6 +373,27 @@ mod tests {
         assert!((t - libm::asin(0.5) / 10.0).abs() < 1e-16);
         let later = zero_of(&segment(amplitude), arm, Interface::Right).expect("it starts");
         assert!((later - (std::f64::consts::PI + libm::asin(0.5)) / 10.0).abs() < 1e-15);
+    }
+
+    /// The centre of gravity of the upper block is beyond the end of its contact; an acceleration of the ground holds it, until vertical motion outweighs that.
+    #[test]
+    fn a_stack_that_the_ground_holds_starts_where_its_weight_outweighs_the_ground() {
+        use crate::column::Block;
+        use rocking_ground::Motion;
+        for (slide, push, amplitude, period, start) in
+            [(0.55, 1.2, 5.0, 1.0, 0.2), (0.55, 3.0, 25.0, 1.0, 0.0), (0.52, 0.6, 7.0, 0.5, 0.2)]
+        {
+            let blocks = vec![Block::rectangle(0.5, 0.5, 1.0), Block::rectangle(0.4, 0.5, 1.0)];
+            let column = Column::new(blocks, 9.81).and_then(|column| column.displaced(vec![0.0, slide]));
+            let mut scene = Scene::new(column.expect("the faces overlap"));
+            let omega = 2.0 * PI / period;
+            scene.excitation.horizontal = Some(Motion::Rectangular { amplitude: push, start: 0.0, duration: 2.0 });
+            scene.excitation.vertical = Some(Motion::SinePulse { amplitude, omega, start });
+            // Levers about the end of the contact: (slide - 0.5) (g + ÿ_g) = 0.5 a.
+            let exact = start + libm::asin((0.5 * push / (slide - 0.5) - 9.81) / amplitude) / omega;
+            let found = scene.openings_at_rest()[1].expect("it starts");
+            assert!((found - exact).abs() < 1e-12, "{found} for {exact}");
+        }
     }
 
     #[test]
