@@ -272,7 +272,7 @@ pub struct Work {
     pub force_calls: usize,
     /// Whether generated equations had the terms of vertical ground motion.
     pub with_vertical: bool,
-    /// Distinct patterns that the run entered.
+    /// Distinct patterns that the run entered; where blocks slide or fly, those of each part in which everything sticks, added up.
     pub modes_entered: usize,
     /// Smooth phases: how often the integrator was entered.
     pub phases: usize,

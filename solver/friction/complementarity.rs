@@ -65,19 +65,17 @@ pub fn states(
         Contact { corner, coefficient, slip, free: free_change(&chain, now, question, corner), place, axes }
     };
     let contacts: Vec<Contact> = touch.iter().enumerate().flat_map(corners).map(contact).collect();
-    let changes = solved(&chain, &contacts)?;
+    let found = solved(&chain, &contacts)?;
     let most = contacts.iter().fold(0.0f64, |most, own| most.max(own.free[0].abs()).max(own.free[1].abs()));
     let joint = |(interface, touch): (usize, &Touch)| {
-        let own = contacts.iter().zip(&changes).filter(|(contact, _)| contact.corner.interface == interface);
-        let held: Vec<(&Contact, f64)> = own
-            .filter(|(_, [_, gap])| *gap <= UNCHANGED * most)
-            .map(|(contact, [slide, _])| (contact, *slide))
-            .collect();
-        let Some((first, slide)) = held.first() else { return Joint::Free };
-        let slip = match (first.slip, slide.abs() <= UNCHANGED * most) {
+        let own = contacts.iter().zip(&found).filter(|(contact, _)| contact.corner.interface == interface);
+        let held: Vec<(&Contact, &Found)> =
+            own.filter(|(_, found)| found.presses || found.gap <= UNCHANGED * most).collect();
+        let Some((first, found)) = held.first() else { return Joint::Free };
+        let slip = match (first.slip, !found.slides || found.slide.abs() <= UNCHANGED * most) {
             (Some(given), _) => Slip::Slides(given),
             (None, true) => Slip::Sticks,
-            (None, false) => Slip::along(*slide),
+            (None, false) => Slip::along(found.slide),
         };
         match touch {
             Touch::Faces if held.len() == 2 => Joint::Closed(slip),
@@ -119,9 +117,18 @@ fn free_change(chain: &Chain, now: &Configuration, question: &Question, corner: 
     }
 }
 
-/// Rates of slide and gap of each contact in the solution: velocities after an impact `[m/s]` or accelerations `[m/s²]`. `None` if Lemke's method finds
-/// no solution.
-fn solved(chain: &Chain, contacts: &[Contact]) -> Option<Vec<[f64; 2]>> {
+/// A contact in the solution: velocities after an impact `[m/s]`, or accelerations `[m/s²]`.
+struct Found {
+    slide: f64,
+    gap: f64,
+    /// Whether the solution has a force `λ`. The gap is then zero, whatever the error of its number.
+    presses: bool,
+    /// Whether the solution has a rate `σ`. Otherwise the slide is zero, whatever the error of its number.
+    slides: bool,
+}
+
+/// Each contact in the solution. `None` if Lemke's method finds no solution.
+fn solved(chain: &Chain, contacts: &[Contact]) -> Option<Vec<Found>> {
     // Forces are in units of the mean mass, so that entries of the matrix are of the order of one.
     let blocks = chain.column().blocks();
     let unit = blocks.iter().map(|block| block.mass).sum::<f64>() / blocks.len() as f64;
@@ -177,7 +184,13 @@ fn solved(chain: &Chain, contacts: &[Contact]) -> Option<Vec<[f64; 2]>> {
     let total = |at: usize, axis: usize| {
         contacts[at].free[axis] + unknowns.iter().zip(&z).map(|(unknown, z)| z * change(at, axis, unknown)).sum::<f64>()
     };
-    Some((0..contacts.len()).map(|at| [total(at, 0), total(at, 1)]).collect())
+    let found = |(at, (contact, &first)): (usize, (&Contact, &usize))| Found {
+        slide: total(at, 0),
+        gap: total(at, 1),
+        presses: z[first] > 0.0,
+        slides: contact.slip.is_some() || z[first + 3] > 0.0,
+    };
+    Some(contacts.iter().zip(&firsts).enumerate().map(found).collect())
 }
 
 /// Forces and moments on the blocks of a unit force of a contact along an axis: with the axis on the upper block, against it on the lower one.

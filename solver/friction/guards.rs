@@ -90,7 +90,8 @@ pub fn guards(joints: &[Joint], kinetic: &[f64]) -> Vec<Guard> {
                 guards.extend(Corner::all(i).map(Guard::Land));
             }
         }
-        guards.push(Guard::Overturn(i));
+        // What lies flat on a block turns with it.
+        guards.extend((i == 0 || !matches!(joint, Joint::Closed(_))).then_some(Guard::Overturn(i)));
     }
     guards
 }

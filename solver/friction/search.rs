@@ -336,8 +336,11 @@ impl<'a> Search<'a> {
             Some(found) if found.joints.iter().all(|joint| joint.sticks()) || !may_be_ambiguous => Some(found),
             _ if may_be_ambiguous => self.best_of_all(&first, |_, _| true),
             _ => {
-                let starts = [&self.friction.fixed, &self.friction.kinetic].into_iter();
-                let mut complementary = starts.filter_map(|cones| self.complementary(cones));
+                let Coefficients { fixed, kinetic } = self.friction;
+                // Impacts know the kinetic coefficients alone.
+                let others = (!self.is_impact() && fixed != kinetic).then_some(kinetic);
+                let mut complementary =
+                    std::iter::once(fixed).chain(others).filter_map(|cones| self.complementary(cones));
                 let found = complementary.find_map(|joints| self.follow_violations(joints));
                 let found = found.or_else(|| self.best_of_all(&first, |_, _| true));
                 // An impact always has an answer; accelerations may have none.

@@ -153,6 +153,8 @@ impl Phase {
         let (t, segment, gap) = (self.t, self.segment, self.gaps[0]);
         self.visit_samples(problem, samples.until, visit);
         (self.t, self.segment, self.gaps[0]) = (t, segment, gap);
+        self.integrator.enter(&problem.ground[segment]);
+        self.integrator.begin(t, &samples.start);
         self.last.kind = Kind::Samples(samples);
         self.forces.forget();
     }

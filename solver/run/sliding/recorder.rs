@@ -36,8 +36,14 @@ pub trait StepInside<'p>: Snapshots<'p> {
     /// Visits the nodes of a quadrature up to a time `[s]`.
     fn nodes(&mut self, until: f64, visit: &mut dyn FnMut(&Node));
 
-    /// Contact forces at a time `[s]`, as in [`Node::contacts`].
-    fn contacts(&mut self, t: f64) -> PerBlock<ContactForce>;
+    /// The largest value of a quantity of a contact's force, as in [`Node::contacts`], up to a time `[s]`, or `so_far` if that is larger.
+    fn highest_of_force(
+        &mut self,
+        until: f64,
+        interface: usize,
+        so_far: f64,
+        quantity: &dyn Fn(&ContactForce) -> f64,
+    ) -> f64;
 
     /// The largest gap of a free interface up to a time `[s]`, or `so_far` if that is larger `[m]`.
     fn highest_gap(&mut self, until: f64, interface: usize, so_far: f64) -> f64;
@@ -66,8 +72,6 @@ pub struct SlidingRecorder<'p> {
     problem: &'p Problem<'p>,
     friction: &'p Coefficients,
     log: Log,
-    /// End of the step that was read last, NaN after a change of state `[s]`.
-    read_until: f64,
     /// Normal force above which a contact has a friction demand, per interface `[N]`.
     least_normal_force: PerBlock<f64>,
     time_in_mode: BTreeMap<String, f64>,
@@ -91,7 +95,6 @@ impl<'p> SlidingRecorder<'p> {
             problem,
             friction,
             log: Log::new(Rows::starting_in(0, 0), extremes),
-            read_until: f64::NAN,
             least_normal_force: (0..blocks)
                 .map(|i| LIGHT_SHARE * problem.scene.column.mass_above(i) * problem.scene.column.gravity())
                 .collect(),
@@ -264,7 +267,6 @@ impl<'p> SlidingRecorder<'p> {
     /// Records that a stretch with constant states has ended: times in modes and contacts, and slides.
     pub fn leave(&mut self, from: &SlidingState, until: &SlidingState) {
         let span = until.t - from.t;
-        self.read_until = f64::NAN;
         let (now, end, size) = (&from.configuration, &until.configuration, self.column().size());
         *self.time_in_mode.entry(ModeName::of(&now.pattern()).to_string()).or_insert(0.0) += span;
         let SlidingReport { times, way_slid, peak_slide, flights, .. } = &mut self.report;
@@ -303,7 +305,7 @@ impl<'p> SlidingRecorder<'p> {
         });
     }
 
-    /// Records the force of a contact.
+    /// Records the force of a contact at rest.
     fn contact(&mut self, interface: usize, contact: &ContactForce) {
         let Extremes { min_normal_force, friction_demand, .. } = &mut self.log.extremes;
         min_normal_force[interface] = min_normal_force[interface].min(contact.normal);
@@ -323,32 +325,30 @@ impl<'p> SlidingRecorder<'p> {
         }
         inside.peaks(until, &mut self.log.extremes.peak_theta);
         inside.nodes(until, &mut |node| self.node(segment, joints, node));
-        // A step that follows another one begins with the forces at its end.
-        let begins = from != self.read_until;
-        for t in begins.then_some(from).into_iter().chain([until]) {
-            self.contacts(joints, &inside.contacts(t));
-        }
-        self.read_until = until;
         for (interface, joint) in joints.iter().enumerate() {
-            if *joint == Joint::Free {
-                self.report.highest_flight = inside.highest_gap(until, interface, self.report.highest_flight);
+            match joint {
+                Joint::Free => {
+                    self.report.highest_flight = inside.highest_gap(until, interface, self.report.highest_flight);
+                }
+                joint => self.forces(interface, *joint, until, inside),
             }
         }
     }
 
-    /// Records the forces of contacts at a place of a step.
-    fn contacts(&mut self, joints: &[Joint], contacts: &[ContactForce]) {
-        for (interface, contact) in
-            contacts.iter().enumerate().filter(|(interface, _)| joints[*interface] != Joint::Free)
-        {
-            // Of coinciding corners that stick, one face may press where the other would have to pull.
-            let is_held = joints[interface].is_corner_on_corner() && joints[interface].sticks();
-            let normal = if is_held { contact.normal.max(0.0) } else { contact.normal };
-            self.contact(interface, &ContactForce { normal, ..*contact });
-        }
+    /// Records the extremes of the force of a contact in this state up to a time of a step.
+    fn forces(&mut self, interface: usize, joint: Joint, until: f64, inside: &mut dyn StepInside<'p>) {
+        // Of coinciding corners that stick, one face may press where the other would have to pull.
+        let is_held = joint.is_corner_on_corner() && joint.sticks();
+        let least = self.least_normal_force[interface];
+        let pull = |contact: &ContactForce| if is_held { -contact.normal.max(0.0) } else { -contact.normal };
+        let demand = |contact: &ContactForce| if contact.normal > least { contact.friction_demand() } else { 0.0 };
+        let Extremes { min_normal_force, friction_demand, .. } = &mut self.log.extremes;
+        let (normal, largest) = (&mut min_normal_force[interface], &mut friction_demand[interface]);
+        *normal = -inside.highest_of_force(until, interface, -*normal, &pull);
+        *largest = inside.highest_of_force(until, interface, *largest, &demand);
     }
 
-    /// Records forces and work at a node of the quadrature over a step.
+    /// Records work at a node of the quadrature over a step.
     fn node(&mut self, segment: usize, joints: &[Joint], node: &Node) {
         let Node { t, weight, momentum: [px, py], contacts, slide_rates } = node;
         let [ax, ay] = self.problem.ground[segment].accelerations(*t);
@@ -360,7 +360,6 @@ impl<'p> SlidingRecorder<'p> {
                 self.report.friction_work += weight * contact.tangential * rate;
             }
         }
-        self.contacts(joints, contacts);
     }
 
     fn row(&mut self, t: f64, snapshot: &Snapshot) {

@@ -73,8 +73,16 @@ impl<'p, O: Output> StepInside<'p> for Step<'_, 'p, O> {
         }
     }
 
-    fn contacts(&mut self, t: f64) -> PerBlock<ContactForce> {
-        self.contacts_at(self.place(t))
+    fn highest_of_force(
+        &mut self,
+        until: f64,
+        interface: usize,
+        so_far: f64,
+        quantity: &dyn Fn(&ContactForce) -> f64,
+    ) -> f64 {
+        let end = self.place(until);
+        let value = |s: f64| self.contact_at(s, interface).as_ref().map_or(f64::NEG_INFINITY, quantity);
+        highest(value, end, so_far)
     }
 
     fn highest_gap(&mut self, until: f64, interface: usize, so_far: f64) -> f64 {
@@ -101,14 +109,19 @@ impl<O: Output> Step<'_, '_, O> {
 
     /// Contact forces at a place of the step, by interface; zero if the equations of the states are singular.
     fn contacts_at(&mut self, s: f64) -> PerBlock<ContactForce> {
-        let Some(&SeriesSpan { series, joints, h, .. }) = self.output.series() else {
-            return self.at(s, true).answer.iter().flat_map(|answer| answer.contacts.iter().copied()).collect();
-        };
-        let contact = |interface: usize| {
-            let [tangential, normal] = series.contact_force_at(interface, s * h);
-            ContactForce { normal, tangential, moment: 0.0 }
-        };
-        (0..joints.len()).map(contact).collect()
+        let interfaces = 0..self.smooth.base.joints.len();
+        interfaces.map(|interface| self.contact_at(s, interface).unwrap_or_default()).collect()
+    }
+
+    /// Force of a contact at a place of the step; `None` if the equations of the states are singular.
+    fn contact_at(&mut self, s: f64, interface: usize) -> Option<ContactForce> {
+        match self.output.series() {
+            Some(&SeriesSpan { series, h, .. }) => {
+                let [tangential, normal] = series.contact_force_at(interface, s * h);
+                Some(ContactForce { normal, tangential, moment: 0.0 })
+            }
+            None => self.at(s, true).answer.as_ref().map(|answer| answer.contacts[interface]),
+        }
     }
 
     /// Raises peaks to the crests of angles between two places, at which the blocks turn with these rates.
@@ -129,22 +142,22 @@ impl<O: Output> Step<'_, '_, O> {
     }
 }
 
-/// Places at which a gap is sampled over a step of a flight.
-const PLACES_OF_GAP: usize = 5;
+/// Places at which a quantity is sampled over a step.
+const PLACES: usize = 5;
 
 /// Rounds in which a crest is enclosed by the golden section: the place is found to `0.618^40`, `4e-9` of the step.
 const ROUNDS_TO_CREST: usize = 40;
 
-/// The largest value of a gap over the step up to the place `end`, or `so_far` if that is larger. Over a face, gaps of flying corners are concave in time but
-/// for their rotation, and so is the lowest of them, which has kinks: the crest is beside the highest of several places, and found by the golden section.
-/// Beside a face the gap grows with the distance, and is largest at an end.
+/// The largest value of a quantity over the step up to the place `end`, or `so_far` if that is larger: an end, or a crest beside the highest of several places,
+/// found by the golden section. Gaps of flying corners over a face are concave in time but for their rotation, and so is the lowest of them, which has kinks;
+/// beside a face the gap grows with the distance. Forces are smooth, and steps short beside their changes.
 fn highest(mut value: impl FnMut(f64) -> f64, end: f64, so_far: f64) -> f64 {
-    let place = |index: usize| end * index as f64 / (PLACES_OF_GAP - 1) as f64;
-    let values: [f64; PLACES_OF_GAP] = std::array::from_fn(|index| value(place(index)));
-    let most = (1..PLACES_OF_GAP).fold(0, |most, own| if values[own] > values[most] { own } else { most });
+    let place = |index: usize| end * index as f64 / (PLACES - 1) as f64;
+    let values: [f64; PLACES] = std::array::from_fn(|index| value(place(index)));
+    let most = (1..PLACES).fold(0, |most, own| if values[own] > values[most] { own } else { most });
     let so_far = so_far.max(values[most]);
     // The crest is beside this place, and no higher than the chords from one side continued to the other.
-    let middle = most.clamp(1, PLACES_OF_GAP - 2);
+    let middle = most.clamp(1, PLACES - 2);
     let bound = 2.0 * values[middle] - values[middle - 1].min(values[middle + 1]);
     if bound <= so_far {
         return so_far;
