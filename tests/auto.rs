@@ -64,3 +64,48 @@ fn auto_evaluates_no_more_than_the_best_method() {
     }
     assert!(compared == 100 && slower.is_empty(), "{} of {compared}\n{slower:#?}", slower.len());
 }
+
+/// Where vertical motion takes all weight from a block at rest at a sample of a record, two of three terms of its series vanish.
+#[test]
+fn a_block_that_begins_without_weight_moves_as_by_other_methods() {
+    let at = |method: Method, rtol: f64| {
+        let mut scene = Scene::new(Column::equal_blocks(1, 0.4, 1.56, 1000.0, 9.81).expect("a block"));
+        let record = |samples: &[f64]| {
+            let unit = rocking::ground::AccelerationUnit::MetrePerSecondSquared;
+            Motion::Record(rocking::ground::Record::from_samples(samples, unit, 0.5, 9.81).expect("samples"))
+        };
+        scene.excitation.horizontal = Some(record(&[0.0, 1.68, 0.0]));
+        scene.excitation.vertical = Some(record(&[-9.81, 0.0, 0.0]));
+        scene.initial.theta = vec![0.075];
+        (scene.options.method, scene.options.rtol, scene.options.atol) = (method, rtol, 1e-3 * rtol);
+        scene.options.t_end = 20.0;
+        scene.output_dt = Some(0.5);
+        let response = simulate(&scene).expect("a run");
+        (response.samples[1].theta[0], response.status)
+    };
+    let (exact, overturns) = at(Method::Taylor, 1e-12);
+    for rtol in [1e-6, 1e-9, 1e-12] {
+        let (angle, status) = at(Method::Auto, rtol);
+        assert!((angle - exact).abs() < rtol.max(1e-14), "{rtol}: {angle} for {exact}");
+        assert_eq!(status, overturns, "{rtol}");
+    }
+}
+
+/// In the tail of a wavelet all terms of a series are tiny, and tell nothing of the crest.
+#[test]
+fn no_step_passes_over_a_wavelet() {
+    let first_opening = |method: Method, rtol: f64| {
+        let mut scene = Scene::new(Column::equal_blocks(2, 0.2, 1.0, 1000.0, 9.81).expect("blocks"));
+        let omega = 50.0 * std::f64::consts::TAU;
+        let velocity = 5.0 * 9.81 / omega;
+        scene.excitation.vertical = Some(Motion::Gabor { velocity, omega, gamma: 0.5, phase: 1.2, start: 0.1 });
+        (scene.initial.theta, scene.initial.omega) = (vec![0.18; 2], vec![0.15; 2]);
+        (scene.options.method, scene.options.rtol, scene.options.t_end) = (method, rtol, 1.0);
+        simulate(&scene).expect("a run").events.first().map(|event| event.t)
+    };
+    let exact = first_opening(Method::Dop853, 1e-10).expect("the upper block opens");
+    for rtol in [1e-3, 1e-4, 1e-6] {
+        let found = first_opening(Method::Auto, rtol).expect("the upper block opens");
+        assert!((found - exact).abs() < 1e-3 * rtol.max(1e-6), "{rtol}: {found} for {exact}");
+    }
+}

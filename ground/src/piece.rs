@@ -252,6 +252,17 @@ impl Piece {
         }
     }
 
+    /// Longest time over which a Taylor series tells of all that the acceleration does `[s]`: a radian of a wavelet, infinite for other pieces. In the tail of a
+    /// wavelet all terms are tiny, and so is their error, whatever comes after.
+    #[inline]
+    pub fn longest_series(&self) -> f64 {
+        match *self {
+            Piece::Zero | Piece::Linear { .. } | Piece::Sine { .. } | Piece::Cosine { .. } => f64::INFINITY,
+            Piece::Ricker { .. } | Piece::AntisymmetricRicker { .. } | Piece::Gabor { .. } => 1.0 / self.omega(),
+            Piece::Sum(ref terms) => terms.iter().map(Piece::longest_series).fold(f64::INFINITY, f64::min),
+        }
+    }
+
     /// Upper bound of the magnitude of the second derivative `[m/s⁴]`.
     pub fn curvature_bound(&self) -> f64 {
         match *self {

@@ -28,6 +28,12 @@ impl Segment {
         [self.horizontal.value(t), self.vertical.value(t)]
     }
 
+    /// Longest time over which Taylor series tell of all that the accelerations do `[s]` ([`Piece::longest_series`]).
+    #[inline]
+    pub fn longest_series(&self) -> f64 {
+        self.horizontal.longest_series().min(self.vertical.longest_series())
+    }
+
     /// Whether both accelerations are zero.
     #[inline]
     pub fn is_quiet(&self) -> bool {

@@ -153,11 +153,16 @@ pub(crate) struct ExplicitSteps<D: Dynamics> {
     fixed: Option<f64>,
     start: D::State,
     slope: D::State,
+    /// Whether the slope is that of another ground acceleration: wavelets are cut off below 1e-6 of their amplitude, which is no jump.
+    is_slope_stale: bool,
     /// The part of the attempt to which the stages of the method belong.
     part: Part,
     /// Dense output of each [`Part`], and whether it is current.
     interpolants: [(Interpolant<D::State>, bool); 2],
 }
+
+/// Relative change of the ground's acceleration up to which the slope at the end of a step is that at the start of the next, in another segment.
+const GROUND_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 impl<D: Dynamics> ExplicitSteps<D> {
     /// The method of a tableau on a mode, with gravity `[m/s²]`; steps of fixed length `[s]` where one is given.
@@ -170,9 +175,18 @@ impl<D: Dynamics> ExplicitSteps<D> {
             fixed,
             start: zero.clone(),
             slope: zero.clone(),
+            is_slope_stale: false,
             part: Part::Attempt,
             interpolants: [(); 2].map(|()| (Interpolant::new(&zero), false)),
         }
+    }
+
+    /// The slope at the start, at a time `[s]`.
+    fn current_slope(&mut self, t: f64) -> &D::State {
+        if std::mem::take(&mut self.is_slope_stale) {
+            self.system.slope(t, &self.start, &mut self.slope);
+        }
+        &self.slope
     }
 
     fn interpolant(&mut self, part: Part) -> &Interpolant<D::State> {
@@ -188,15 +202,16 @@ impl<D: Dynamics> ExplicitSteps<D> {
 impl<D: Dynamics> Steps for ExplicitSteps<D> {
     fn begin(&mut self, t: f64, x: &[f64]) {
         self.start.as_mut_slice().copy_from_slice(x);
-        self.system.slope(t, &self.start, &mut self.slope);
+        self.is_slope_stale = true;
+        self.current_slope(t);
     }
 
     fn start(&self) -> &[f64] {
         self.start.as_slice()
     }
 
-    fn start_slope(&mut self, _: f64, slope: &mut [f64]) {
-        slope.copy_from_slice(self.slope.as_slice());
+    fn start_slope(&mut self, t: f64, slope: &mut [f64]) {
+        slope.copy_from_slice(self.current_slope(t).as_slice());
     }
 
     fn first_step(&self, tolerance: Tolerance) -> f64 {
@@ -207,6 +222,7 @@ impl<D: Dynamics> Steps for ExplicitSteps<D> {
         let h = without_remainder(suggested, most);
         self.part = Part::Attempt;
         self.interpolants.iter_mut().for_each(|(_, is_current)| *is_current = false);
+        self.current_slope(t);
         let error = self.method.attempt(&mut self.system, t, &self.start, &self.slope, h, tolerance);
         let fits = h * if self.fixed.is_some() { 1.0 } else { self.control.factor(error) };
         let suggested = if error.is_nan() {
@@ -266,7 +282,11 @@ impl<D: Dynamics> Steps for ExplicitSteps<D> {
 
 impl<D: Dynamics + Send + Sync> Forces for ExplicitSteps<D> {
     fn enter(&mut self, segment: &Segment) {
+        let before = self.system.ground(segment.start);
         self.system.segment.clone_from(segment);
+        let after = self.system.ground(segment.start);
+        let differ = |a: f64, b: f64| (a - b).abs() > GROUND_ROUNDING * (a.abs() + b.abs());
+        self.is_slope_stale |= differ(before.x, after.x) || differ(before.gravity, after.gravity);
     }
 
     fn ground(&self, t: f64) -> Ground {
@@ -398,6 +418,7 @@ impl<D: Dynamics> Steps for TaylorSteps<D> {
 
     fn attempt(&mut self, t: f64, suggested: f64, most: f64, tolerance: Tolerance) -> Attempt {
         let known = self.series.known_at(t, &self.start);
+        let most = most.min(self.system.driven.segment.longest_series());
         let attempted = self.series.attempt(&mut self.system, t, &self.start, [suggested, most], tolerance);
         self.system.driven.calls += self.series.known_at(t, &self.start) - known;
         attempted

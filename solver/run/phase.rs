@@ -26,6 +26,8 @@ use std::ops::Range;
 /// The phases of a mode, with storage for them.
 pub(crate) struct Phase {
     pub(super) integrator: Box<dyn Integrator>,
+    /// Largest frequency parameter `p` of the column's stacks `[1/s]`.
+    pub(super) fastest: f64,
     pub(super) linkage: Linkage,
     /// The open interfaces, each with the link on it: base first, length `dof`.
     pub(super) gaps: PerBlock<Gap>,
@@ -182,6 +184,7 @@ impl Phase {
             slope: zeros(),
             work: Work::default(),
             calls: 0,
+            fastest: scene.column.largest_frequency_parameter(),
             integrator,
         }
     }

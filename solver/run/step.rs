@@ -33,8 +33,16 @@ enum StepEvent {
     Contact { interface: usize },
 }
 
-/// Largest number of Newton rounds that move the end of a step to the zero of a guard. The dense output gives the first digits; a round doubles their number.
+/// Newton rounds that move the end of a step to the zero of a guard. The dense output gives the first digits; a round doubles their number.
 const NEWTON_ROUNDS: usize = 4;
+
+/// Largest number of Newton rounds, where the zero is not found yet: at loose tolerances a step may reach far beyond a landing, and its dense output be a
+/// multiple of the way to it off.
+const MOST_NEWTON_ROUNDS: usize = 64;
+
+/// Newton's step, as a share of the step that it shortens, up to which the zero of a guard counts as found: the next one would be its square. At loose
+/// tolerances the dense output may name a zero that the shortened step does not have.
+const FOUND_SHARE: f64 = 1e-9;
 
 /// A gap that moves by less than its value at the start cannot close in the step: value and move together are below this multiple of the value.
 /// Safety factor of the bound, below 2 so that rounding cannot close a gap.
@@ -46,6 +54,12 @@ pub(super) const PANELS_PER_RADIAN_TURNED: f64 = 20.0;
 
 /// Panels per radian of the ground motion.
 const PANELS_PER_RADIAN_OF_GROUND: f64 = 2.0;
+
+/// Panels more per radian of a wavelet, whose third derivative is a dozen times that of a sine.
+const PANELS_PER_RADIAN_OF_WAVELET: f64 = 4.0;
+
+/// Panels in the time `1/p` of the column's fastest stack: forces of slender blocks vary with the angle's share of the slenderness, however little they turn.
+const PANELS_PER_OWN_TIME: f64 = 2.0;
 
 /// Largest number of panels of a step. It is reached at the loosest tolerances only, where forces are then not fully resolved.
 const MOST_PANELS: f64 = 64.0;
@@ -228,7 +242,7 @@ impl Phase {
         let t = self.t;
         let mut h = s * attempted;
         let (mut taken, mut has_touched) = (h, true);
-        for _ in 0..NEWTON_ROUNDS {
+        for round in 1..=MOST_NEWTON_ROUNDS {
             self.work.repeated += 1;
             taken = h;
             self.integrator.cut(t, h, problem.tolerance);
@@ -242,10 +256,12 @@ impl Phase {
                 }
                 StepEvent::Contact { .. } => break,
             };
-            has_touched = rate < 0.0 || value <= self.resolution(self.integrator.start());
             let correction = -value / rate;
+            let is_found = rate < 0.0 && correction.abs() <= FOUND_SHARE * h;
+            has_touched = is_found || value <= self.resolution(self.integrator.start());
             let next = h + correction;
-            if !(rate < 0.0 && next > 0.0 && next <= attempted) || correction.abs() <= f64::EPSILON * h {
+            let is_within = rate < 0.0 && next > 0.0 && next <= attempted;
+            if !is_within || correction.abs() <= f64::EPSILON * h || is_found && round >= NEWTON_ROUNDS {
                 break;
             }
             h = next;
@@ -324,8 +340,11 @@ impl Phase {
         let turned = step.h * rates.fold(0.0f64, |largest, rate| largest.max(rate.abs()));
         let segment = &problem.ground[self.segment];
         let radians = step.h * segment.horizontal.omega().max(segment.vertical.omega());
-        let usual = (PANELS_PER_RADIAN_TURNED * turned + PANELS_PER_RADIAN_OF_GROUND * radians).ceil();
-        let panels = (problem.panels * usual.clamp(1.0, MOST_PANELS)) as usize;
+        let usual = PANELS_PER_RADIAN_TURNED * turned
+            + PANELS_PER_RADIAN_OF_GROUND * radians
+            + PANELS_PER_RADIAN_OF_WAVELET * (step.h / segment.longest_series())
+            + PANELS_PER_OWN_TIME * (step.h * self.fastest);
+        let panels = (problem.panels * usual.ceil().clamp(1.0, MOST_PANELS)) as usize;
         let at = |place: f64| place / panels as f64;
         let (mut start, mut end) = (self.forces.start.forces.clone(), last.clone());
         for panel in 0..panels {

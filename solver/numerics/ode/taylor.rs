@@ -387,7 +387,7 @@ pub fn error_of(sizes: [f64; LAST_TERMS]) -> f64 {
 
 /// The larger of two; the second where one is not a number.
 #[inline(always)]
-fn larger(a: f64, b: f64) -> f64 {
+pub fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 

@@ -69,7 +69,7 @@ impl<'p> Steps<'p> for SeriesSteps<'p> {
         smooth.is_positive.get_or_init(|| begun.map(|()| series.is_positive()));
         let (tolerance, size) = (self.problem.tolerance, smooth.column.size());
         let limits = StepLimits { tolerance, ground: &ground, size, speed: (size * smooth.gravity).sqrt() };
-        let most = left.min(LARGEST_GROWTH * self.suggested).min(longest);
+        let most = left.min(LARGEST_GROWTH * self.suggested).min(longest).min(smooth.segment.longest_series());
         let most = most.min(expected_event::longest_step(expected_end(series, &self.joints), self.suggested));
         let length = begun.and_then(|()| length(series, most, self.most_orders, &limits));
         work.rhs_calls += series.orders();
