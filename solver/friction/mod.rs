@@ -82,7 +82,7 @@ impl Friction {
                 let problem = format!("{} number(s) for {blocks} interface(s)", list.len());
                 faults.push((key, problem, "give one for all, or one per interface, base first"));
             } else if let Some(value) = list.iter().find(|value| !(0.0..=LARGEST_COEFFICIENT).contains(*value)) {
-                faults.push((key, format!("{value:?} is out of range"), "give a number from zero to 1e100"));
+                faults.push((key, format!("{value:?} is out of range"), "give a number from zero to 1e8"));
             }
         }
         if !faults.is_empty() {
@@ -108,8 +108,9 @@ impl Friction {
     }
 }
 
-/// Largest coefficient of friction: far beyond any that is used up. With much larger ones, forces leave the range of doubles.
-pub(crate) const LARGEST_COEFFICIENT: f64 = 1e100;
+/// Largest coefficient of friction: far beyond any that is used up. From 1e9 up, what rounding leaves of a normal force becomes a friction force that counts: of
+/// 223 random scenes 3 gained energy at 1e9, 59 at 1e12, none at 1e8.
+pub(crate) const LARGEST_COEFFICIENT: f64 = 1e8;
 
 /// Depth inside another block that a corner may have, at a landing and in an initial state, as a share of [`Column::size`].
 /// The search for a landing ends at far smaller depths.
