@@ -1,11 +1,13 @@
 //! Numbers for readers: significant digits, no trailing zeros.
 
-/// The number with `digits` significant digits; with a power of ten (`1e9`) if the rounded magnitude is below 1e-4 or at least 1e7.
+/// The number with `digits` significant digits; with a power of ten (`1e9`) if the rounded magnitude is below 1e-4 or at least 1e7. `inf` and `NaN`
+/// as they are.
 pub fn significant(value: f64, digits: usize) -> String {
     let rounded = format!("{value:.*e}", digits - 1);
     let exponent = rounded.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok());
     match exponent {
         _ if value == 0.0 => "0".into(),
+        _ if !value.is_finite() => value.to_string(),
         Some(exponent @ -4..=6) => {
             // The rounded value is read back: 1234.5 with three digits is 1230.
             let value: f64 = rounded.parse().unwrap_or(value);

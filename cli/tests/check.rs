@@ -191,6 +191,20 @@ fn a_check_says_towards_which_side_a_displaced_column_is_weak() {
     assert_has(&told("-0.4"), &["is enough to open", "opens at 0.2444 g towards its weaker side"]);
 }
 
+/// A pulse that acts on the stronger side of the displaced block: the other interface has the least threshold, to its weaker side, and does not open.
+#[test]
+fn the_threshold_is_that_of_the_interface_which_opens_first() {
+    let scene = "[[block]]\nhalf_width = 0.4\nhalf_height = 0.5\nmass = 0.8\n[[block]]\nhalf_width = 0.18\nhalf_height = 0.5\nmass = 3\n\
+        [initial]\nslide = [0.0, 0.15]\n[excitation.horizontal]\nkind = \"half-sine\"\namplitude_g = 0.38\nomega = 6.0\n[solver]\nt_end = 2\n";
+    let told = Folder::with("scene.toml", scene).succeeds("check scene.toml");
+    assert_has(
+        &told,
+        &[
+            "0.3800 g is enough to open interface(s) 2 of the column at rest; the first opens at 0.3600 g towards its stronger side",
+        ],
+    );
+}
+
 #[test]
 fn stacks_that_do_not_stand_by_themselves_are_named() {
     let block = "[[block]]\nhalf_width = 0.4\nhalf_height = 0.5\n";

@@ -2,7 +2,7 @@
 
 use crate::common::figures::{parts, words};
 use crate::common::scenes::SCENE;
-use crate::common::{Folder, project, project_text, root};
+use crate::common::{Folder, assert_has, project, project_text, root};
 use roxmltree::{Document, Node};
 use serde_json::Value;
 
@@ -10,6 +10,21 @@ const FIGURES: [&str; 4] = ["time-history", "phase-portrait", "energy", "forces"
 
 /// A column that nothing moves.
 const STILL: &str = "[column]\nblocks = 2\nhalf_width = 0.4\nhalf_height = 1.6\n[solver]\nt_end = 1.0\n";
+
+/// A stack whose centre of gravity is on, or beyond, the edge of its support has no slenderness to measure angles by: they are drawn in degrees.
+#[test]
+fn stacks_that_lean_beyond_their_support_are_drawn_in_degrees() {
+    for slide in ["0.4", "0.39"] {
+        let block = "[[block]]\nhalf_width = 0.4\nhalf_height = 0.5\n".repeat(3);
+        let scene = format!("{block}[initial]\nslide = [0.0, {slide}, {slide}]\n[solver]\nt_end = 2\n");
+        let folder = Folder::with("scene.toml", &scene);
+        let told = folder.succeeds("run scene.toml --out out --plots --report");
+        assert_has(&told, &["time-history.svg", "report.html"]);
+        let texts = words(&folder.read("out/time-history.svg")).join(" ");
+        assert_has(&texts, &["Angles θᵢ [°]", "°"]);
+        folder.succeeds("plot out --degrees");
+    }
+}
 
 /// The figures of a scene of the project, and its summary.
 fn figures_of(scene: &str) -> (Vec<String>, Value) {

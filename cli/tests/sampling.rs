@@ -200,3 +200,20 @@ fn a_sample_whose_verdict_is_not_determined_is_left_out() {
     folder.succeeds("merge merged.csv table.csv --sweep sweep.toml");
     assert_eq!(counts("merged-probability.csv"), [3.0, 3.0, 1.0]);
 }
+
+/// The probabilities of an earlier sweep of that name are not those of the merged table.
+#[test]
+fn merging_removes_what_belongs_to_an_earlier_table() {
+    let folder = Folder::with("scene.toml", SCENE);
+    folder.write(
+        "sampled.toml",
+        "scene = \"scene.toml\"\n[sampling]\nsamples = 8\n[axes]\neta = { uniform = [0.8, 0.9] }\n",
+    );
+    folder.succeeds("sweep sampled.toml --out table.csv");
+    assert!(folder.has("table-probability.csv"));
+    folder.write("plain.toml", "scene = \"scene.toml\"\n[axes]\neta = [0.8, 0.85, 0.9]\n");
+    folder.succeeds("sweep plain.toml --out a.csv --shard 1/2");
+    folder.succeeds("sweep plain.toml --out b.csv --shard 2/2");
+    folder.succeeds("merge table.csv a.csv b.csv");
+    assert!(folder.has("table.csv") && !folder.has("table-probability.csv"));
+}

@@ -395,6 +395,8 @@ fn an_unknown_key_is_refused_whatever_else_is_wrong() {
 fn a_value_is_given_once() {
     let folder = folder("scene = \"base.toml\"\n[axes]\neta = [0.8, 0.9, 0.8]\n");
     folder.refused("sweep sweep.toml", &["line 3", "`axes.eta`", "0.8 is there twice", "give each value once"]);
+    folder.write("sweep.toml", "scene = \"base.toml\"\n[axes]\neta = { from = 0.8, to = 0.8, steps = 3 }\n");
+    folder.refused("sweep sweep.toml", &["line 3", "`axes.eta`", "0.8 is there twice", "give each value once"]);
     folder.write(
         "sweep.toml",
         "scene = \"base.toml\"\ncombine = \"paired\"\n[axes]\neta = [0.8, 0.8]\nomega = [9.0, 11.0]\n",
@@ -509,4 +511,15 @@ fn steps_of_axes_are_decimal_numbers() {
         |from: i32, to: i32| (from..=to).map(|tenths| format!("{}", f64::from(tenths) / 10.0)).collect::<Vec<_>>();
     assert_eq!(texts(0), expected(1, 25));
     assert_eq!(texts(1), expected(-10, 10));
+}
+
+/// The depth of a block serves its density, which a mass replaces.
+#[test]
+fn a_mass_replaces_density_and_depth() {
+    let base = "[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.6\ndensity = 2000\ndepth = 0.5\n[initial]\ntheta = [0.1]\n";
+    let folder = Folder::with("base.toml", base);
+    folder.write("sweep.toml", "scene = \"base.toml\"\n[axes]\nmass = [100, 200]\n");
+    folder.succeeds("sweep sweep.toml");
+    folder.write("sweep.toml", "scene = \"base.toml\"\n[axes]\ndensity = [1000, 2500]\n");
+    folder.succeeds("sweep sweep.toml");
 }

@@ -4,6 +4,9 @@ use rocking::run_folder::SceneText;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
+/// Name of a scene that no file has.
+const NO_FILE: &str = "<scene>";
+
 /// File and text from which a scene was read: reports name the file and show the text.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Origin {
@@ -12,7 +15,9 @@ pub struct Origin {
 }
 
 impl Origin {
+    /// What a folder and a report say of the scene. The file is named only if it has this text: a changed scene is not that of the file.
     pub fn scene_text(&self) -> SceneText {
-        SceneText { file: self.file.clone(), text: self.text.clone() }
+        let is_of_file = std::fs::read_to_string(&self.file).is_ok_and(|text| text == self.text);
+        SceneText { file: if is_of_file { self.file.clone() } else { NO_FILE.into() }, text: self.text.clone() }
     }
 }

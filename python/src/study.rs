@@ -155,7 +155,8 @@ impl Ida {
             (scene.output_dt, scene.output_times) = (None, times);
         }
         scene.check().map_err(|errors| error::faults(py, Path::new(RUN), &errors))?;
-        Ok(Scene { scene: Arc::new(scene), origin: Arc::new(Origin::default()) })
+        let text = format!("# Run {index} of an incremental dynamic analysis: it has no text of its own.\n");
+        Ok(Scene { scene: Arc::new(scene), origin: Arc::new(Origin { file: RUN.into(), text }) })
     }
 
     /// The table of a range of runs, as a list of columns.

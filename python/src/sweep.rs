@@ -86,7 +86,12 @@ impl Sweep {
         let mut scene = whole.map_err(|refused| error::scene(py, &refused))?;
         // What is asked of a run is said where it is run.
         scene.options.wanted = Wanted::Everything;
-        let origin = Origin { file: self.sweep.template.file().into(), text: self.sweep.template.text().into() };
+        let settings = self.sweep.axes.iter().zip(self.sweep.settings(index));
+        let settings: String = settings.map(|(axis, value)| format!("# {} = {value}\n", axis.key)).collect();
+        let base = self.sweep.template.text();
+        let text =
+            format!("# Point {index} of a sweep over the scene below, with these values instead:\n{settings}\n{base}");
+        let origin = Origin { file: self.sweep.template.file().into(), text };
         Ok(Scene { scene: Arc::new(scene), origin: Arc::new(origin) })
     }
 

@@ -93,6 +93,9 @@ impl Table {
         if !SPECTRAL.contains(&name) && are_alternatives(SPECTRAL[0], name) {
             entries.retain(|entry| !OF_SPECTRAL.contains(&&*entry.key));
         }
+        if name == "mass" {
+            entries.retain(|entry| *entry.key != *OF_DENSITY);
+        }
         entries.push(Entry { key: name.into(), key_place: place.clone(), value_place: place, value });
     }
 
@@ -150,6 +153,9 @@ const ALTERNATIVES: [&[&str]; 10] = [
 /// Sizes of a record on a response spectrum, and the keys of the oscillator, which serve them alone.
 const SPECTRAL: [&str; 2] = ["sa", "sa_g"];
 const OF_SPECTRAL: [&str; 2] = ["sa_period", "sa_damping"];
+
+/// The size that serves a density alone.
+const OF_DENSITY: &str = "depth";
 
 /// Keys whose value may stand for a table, and the key in that table.
 const SHORT_FORMS: [(&str, &str); 1] = [("friction", "static")];

@@ -256,8 +256,7 @@ fn read_axes(
         let path = if above.is_empty() { key.clone() } else { format!("{above}.{key}") };
         if let Some(values) = table.settings(&key)? {
             if let Some(twice) = repeated(&values).filter(|_| combine != Combine::Paired) {
-                let problem = format!("{twice} is there twice, and its points would be run and counted twice");
-                return Err(table.wrong(&key, problem, "give each value once"));
+                return Err(given_twice(table, &key, twice));
             }
             axes.push((axis(table, &key, &path, values, template)?, table.find(&key), None));
             continue;
@@ -280,6 +279,13 @@ fn read_axes(
                 (true, false) => files(&mut inner, &name, template)?,
                 (true, true) => stations(&mut inner, template)?,
             };
+            // A range from a number to the same number.
+            if let [first, .., last] = &values[..]
+                && first == last
+                && combine != Combine::Paired
+            {
+                return Err(given_twice(table, &key, first));
+            }
             axes.push((axis(table, &key, &path, values, template)?, table.find(&key), None));
         } else if is_no_table(&path) {
             let problem = format!("`{}` makes no axis of it", inner.keys().join("`, `"));
@@ -291,6 +297,11 @@ fn read_axes(
         inner.close()?;
     }
     Ok(())
+}
+
+fn given_twice(table: &Table, key: &str, value: &Setting) -> Wrong {
+    let problem = format!("{value} is there twice, and its points would be run and counted twice");
+    table.wrong(key, problem, "give each value once")
 }
 
 /// A value that is there twice.

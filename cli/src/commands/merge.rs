@@ -63,6 +63,10 @@ pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(),
         None => "--sweep FILE would tell whether points after them are missing".into(),
     };
     put_in_place(merged, &target).map_err(failed)?;
+    // Tables that belong to an earlier table of this name.
+    for by_product in [probability::table(out), fractiles::table(out)] {
+        output::remove(&by_product, &inputs)?;
+    }
     let mut report = format!("wrote {rows} row(s) of {} table(s) to {}: {report}\n", tables.len(), shown(out));
     if let Some(ExpectedSweep { sweep, .. }) = &expected {
         report.push_str(&probability::write(sweep, &probability::of(sweep, out)?, out)?);

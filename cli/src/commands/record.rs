@@ -284,7 +284,9 @@ impl Description {
         self.spectral = periods.iter().map(spectral).collect();
         let size = |name: &str, column: &Column| {
             let intensity = Intensity::named(name, None)?;
-            Some(record.measure(intensity.measure, column.gravity()) / intensity.unit_size(column))
+            // A column that does not stand by itself has no unit.
+            let unit = Some(intensity.unit_size(column)).filter(|unit| *unit > 0.0)?;
+            Some(record.measure(intensity.measure, column.gravity()) / unit)
         };
         self.of_column = column.and_then(|column| {
             Some(OfColumn { pga_uplift: size("pga_uplift", column)?, pgv_uplift: size("pgv_uplift", column)? })

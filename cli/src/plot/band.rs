@@ -1,7 +1,7 @@
 //! Band of angles: the range of the angles of a run and its companions, behind the curves of the run. The band starts where the runs part.
 
 use super::curve::{Frame, Point};
-use super::drawn_run::{DrawnRun, FALL};
+use super::drawn_run::DrawnRun;
 use super::sheet::{Anchor, Panel, Sheet, patch};
 use super::style::{self, Stroke};
 use rocking::trust::{Band, Trust};
@@ -17,16 +17,16 @@ fn open<'a>(motion: &'a DrawnRun) -> Option<&'a Trust> {
     motion.results.trust.as_ref().filter(|trust| !trust.reaches_the_end() && !trust.band.is_empty())
 }
 
-/// Angles of the band in the unit of the axis, cut at [`FALL`] times the slenderness. Empty if the run has no band to draw.
+/// Angles of the band in the unit of the axis, cut at those of [`DrawnRun::fall_angles`]. Empty if the run has no band to draw.
 pub fn values(motion: &DrawnRun) -> Vec<f64> {
     let Some(trust) = open(motion) else { return Vec::new() };
     let Band { t, low, high, .. } = &trust.band;
-    let (slenderness, units) = (motion.slenderness(), motion.units());
+    let (fall_angles, units) = (motion.fall_angles(), motion.units());
     let rows = t.iter().zip(low.iter().zip(high)).filter(|(t, _)| **t <= motion.end);
     let both = |(low, high): (&Vec<f64>, &Vec<f64>)| -> Vec<f64> {
         let over = |angles: &[f64]| -> Vec<f64> {
-            let drawn = angles.iter().zip(slenderness.iter().zip(&units));
-            drawn.map(|(angle, (alpha, unit))| angle.clamp(-FALL * alpha, FALL * alpha) / unit).collect()
+            let drawn = angles.iter().zip(fall_angles.iter().zip(&units));
+            drawn.map(|(angle, (most, unit))| angle.clamp(-most, *most) / unit).collect()
         };
         [over(low), over(high)].concat()
     };

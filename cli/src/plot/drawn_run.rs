@@ -9,6 +9,7 @@ use rocking::Event;
 use rocking::pattern::Pattern;
 use rocking::run_folder::Results;
 use rocking::{BlockState, ModeName, Sample, StopReason};
+use std::f64::consts::FRAC_PI_2;
 
 /// The column at a row or an event. Lengths N, base first.
 #[derive(Clone, Debug)]
@@ -43,7 +44,7 @@ pub struct Stretch {
 pub struct DrawnRun<'a> {
     pub results: &'a Results,
     /// Width of the figures, and unit of their angles.
-    pub paper: &'a Paper,
+    pub paper: Paper,
     /// The rows that are drawn. Rows after overturning, or another early end, only fill the file and are left out.
     pub samples: &'a [Sample],
     /// Rows and events in order of time.
@@ -57,6 +58,11 @@ const AFTERMATH: f64 = 0.04;
 
 /// Largest angle shown of a column that overturns, as a multiple of the slenderness: the fall would flatten the rest of the curves.
 pub const FALL: f64 = 2.0;
+
+/// Largest angle that is shown of a block of this slenderness in a column that overturns `[rad]`; a right angle where the stack does not stand by itself.
+pub fn fall_angle(slenderness: f64) -> f64 {
+    if slenderness > 0.0 { FALL * slenderness } else { FRAC_PI_2 }
+}
 
 /// Largest number of characters of a block's name in legends.
 const LONGEST_NAME: usize = 16;
@@ -78,6 +84,12 @@ impl DrawnRun<'_> {
             end = end.min(response.t_final * (1.0 + AFTERMATH));
         }
         let samples = &results.response.samples[..count];
+        let mut paper = *paper;
+        let stands = |interface: usize| results.column.stack(interface).slenderness() > 0.0;
+        if !(0..results.column.len()).all(stands) {
+            // A stack that does not stand by itself has no slenderness to measure angles by.
+            paper.angles = Angles::Degrees;
+        }
         DrawnRun { results, paper, samples, knots: knots(samples, &results.response.events), end: end.max(1e-9) }
     }
 
@@ -114,10 +126,15 @@ impl DrawnRun<'_> {
         }
     }
 
-    /// Start of the fall `[s]`: from then on some angle exceeds [`FALL`] times its slenderness. `None` if the column does not overturn.
+    /// [`fall_angle`] of each block `[rad]`.
+    pub fn fall_angles(&self) -> Vec<f64> {
+        self.slenderness().into_iter().map(fall_angle).collect()
+    }
+
+    /// Start of the fall `[s]`: from then on some angle exceeds that of [`Self::fall_angles`]. `None` if the column does not overturn.
     pub fn falls_at(&self) -> Option<f64> {
-        let slenderness = self.slenderness();
-        let fallen = |knot: &Knot| knot.theta.iter().zip(&slenderness).any(|(theta, alpha)| theta.abs() > FALL * alpha);
+        let angles = self.fall_angles();
+        let fallen = |knot: &Knot| knot.theta.iter().zip(&angles).any(|(theta, most)| theta.abs() > *most);
         let falling = self.knots.iter().rev().take_while(|knot| fallen(knot)).last();
         falling.filter(|_| self.overturned()).map(|knot| knot.t)
     }

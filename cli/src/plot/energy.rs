@@ -49,7 +49,7 @@ pub fn draw(motion: &DrawnRun) -> Figure {
     };
     let axis = Axis::around(&format!("Energy [{unit}]"), values.iter().map(|value| value * factor), 5);
 
-    let mut sheet = Sheet::new("Kinetic, potential and total energy over time", motion.paper);
+    let mut sheet = Sheet::new("Kinetic, potential and total energy over time", &motion.paper);
     let entries: Vec<_> = KINDS.map(|(name, stroke)| (Key::Line(stroke), name.to_string())).into();
     let top = sheet.legend(0.0, &entries) + 4.0;
     let panel = sheet.panel(top, HEIGHT, time_axis(motion), axis);

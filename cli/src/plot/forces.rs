@@ -37,7 +37,7 @@ struct Contact {
 pub fn draw(motion: &DrawnRun) -> Figure {
     let contacts = contacts(motion);
     let response = &motion.results.response;
-    let mut sheet = Sheet::new("Normal forces and friction demand of the interfaces over time", motion.paper);
+    let mut sheet = Sheet::new("Normal forces and friction demand of the interfaces over time", &motion.paper);
     let entries: Vec<(Key, String)> = (0..contacts.len())
         .map(|interface| (Key::Line(style::line(interface)), format!("interface {}", interface + 1)))
         .collect();

@@ -34,7 +34,7 @@ mod time_history;
 use drawn_run::DrawnRun;
 use rocking::run_folder::Results;
 
-pub use drawn_run::{FALL, output_times};
+pub use drawn_run::{fall_angle, output_times};
 pub use fragility::fragility;
 pub use ida::ida;
 pub use paper::{Angles, Paper, Picture, WIDTHS_MM};

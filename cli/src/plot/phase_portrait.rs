@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, subscript};
 use super::curve::{self, Frame, Ink, Point};
-use super::drawn_run::{DrawnRun, FALL, Knot};
+use super::drawn_run::{DrawnRun, Knot};
 use super::paper::Angles;
 use super::sheet::{Anchor, Figure, Key, LEFT, Panel, RIGHT, Sheet, shortened};
 use super::style::{self, Stroke};
@@ -21,7 +21,7 @@ const CURVE: Stroke = Stroke::solid("#0072b2", 1.3);
 /// The figure.
 pub fn draw(motion: &DrawnRun) -> Figure {
     let blocks = motion.results.column.len();
-    let mut sheet = Sheet::new("Phase portraits of the blocks: rate over angle, impacts as jumps", motion.paper);
+    let mut sheet = Sheet::new("Phase portraits of the blocks: rate over angle, impacts as jumps", &motion.paper);
     let across = if blocks == 4 { 2 } else { blocks.min(ACROSS) }.min(sheet.most_columns());
     let mut entries = vec![(Key::Line(CURVE), "smooth motion".into())];
     if has_jumps(motion) {
@@ -29,8 +29,8 @@ pub fn draw(motion: &DrawnRun) -> Figure {
     }
     let top = sheet.legend(0.0, &entries) + if blocks > 1 { NAME } else { 4.0 };
 
-    let slenderness = motion.slenderness();
-    let limit = |block: usize| if motion.overturned() { FALL * slenderness[block] } else { f64::INFINITY };
+    let fall_angles = motion.fall_angles();
+    let limit = |block: usize| if motion.overturned() { fall_angles[block] } else { f64::INFINITY };
     let seen = || before_the_fall(motion).flat_map(|knot| (0..blocks).map(move |block| (knot, block)));
     let seen = || seen().filter(|(knot, block)| knot.theta[*block].abs() <= limit(*block));
     let unit = unit(motion);

@@ -27,7 +27,7 @@ pub fn draw(motion: &DrawnRun) -> Option<Figure> {
         .unzip();
     let has_gaps = gaps.iter().flatten().flatten().any(|point| point[1] > 0.0);
 
-    let mut sheet = Sheet::new("Slides of the interfaces over time", motion.paper);
+    let mut sheet = Sheet::new("Slides of the interfaces over time", &motion.paper);
     let entries: Vec<(Key, String)> = (0..interfaces)
         .map(|interface| (Key::Line(style::line(interface)), format!("interface {}", interface + 1)))
         .collect();

@@ -1,6 +1,6 @@
 //! Angles over time: the ground acceleration above, impacts as ticks and modes as a band below.
 
-use super::axis::{Axis, brief, span, subscript};
+use super::axis::{Axis, brief, subscript};
 use super::band;
 use super::curve::{Frame, Point};
 use super::drawn_run::{DrawnRun, FALL, Knot, Stretch, output_times, over_time};
@@ -22,7 +22,7 @@ const EDGE: f64 = 5.0;
 
 /// The figure.
 pub fn draw(motion: &DrawnRun) -> Figure {
-    let mut sheet = Sheet::new("Angles of the blocks over time, ground acceleration, impacts and modes", motion.paper);
+    let mut sheet = Sheet::new("Angles of the blocks over time, ground acceleration, impacts and modes", &motion.paper);
     let top = ground_panel(&mut sheet, motion, GAP);
     let top = legend(&mut sheet, motion, top);
     let angles = angles_panel(&mut sheet, motion, top + 4.0);
@@ -84,14 +84,13 @@ fn legend(sheet: &mut Sheet, motion: &DrawnRun, top: f64) -> f64 {
 }
 
 fn angles_panel(sheet: &mut Sheet, motion: &DrawnRun, top: f64) -> Panel {
-    let (units, slenderness) = (motion.units(), motion.slenderness());
+    let (units, fall_angles) = (motion.units(), motion.fall_angles());
     let curves: Vec<Vec<Point>> = units
         .iter()
         .enumerate()
         .map(|(block, unit)| motion.knots.iter().map(|knot| [knot.t, knot.theta[block] / unit]).collect())
         .collect();
-    let limit =
-        |block: usize| if motion.overturned() { FALL * slenderness[block] / units[block] } else { f64::INFINITY };
+    let limit = |block: usize| if motion.overturned() { fall_angles[block] / units[block] } else { f64::INFINITY };
     let seen = |(block, points): (usize, &Vec<Point>)| -> Vec<f64> {
         points.iter().map(|point| point[1].clamp(-limit(block), limit(block))).collect()
     };
@@ -310,13 +309,16 @@ fn caption(motion: &DrawnRun) -> String {
     caption.push_str(&format!(
         "; above, the acceleration of the ground in parts of gravity at the rows alone ({rows}); below, impacts and modes."
     ));
-    let [low, high] = span(motion.knots.iter().flat_map(|knot| {
-        motion.slenderness().into_iter().zip(knot.theta).map(|(alpha, theta)| theta / alpha).collect::<Vec<_>>()
-    }));
-    if motion.overturned() && low.abs().max(high) > FALL {
-        caption.push_str(&format!(" Curves leave the panel where the column falls, at {FALL} α."));
+    let slenderness = motion.slenderness();
+    let reaches = |angles: &[f64]| {
+        motion.knots.iter().any(|knot| knot.theta.iter().zip(angles).any(|(theta, most)| theta.abs() >= *most))
+    };
+    if motion.overturned() && reaches(&motion.fall_angles()) {
+        let others =
+            if slenderness.iter().all(|alpha| *alpha > 0.0) { "" } else { ", at 90° where αᵢ is not above zero" };
+        caption.push_str(&format!(" Curves leave the panel where the column falls, at {FALL} α{others}."));
     }
-    if balance(motion).is_some() && (low <= -1.0 || high >= 1.0) {
+    if balance(motion).is_some() && reaches(&slenderness) {
         let column = &motion.results.column;
         let is_symmetric = (0..column.len()).all(|interface| column.centroid_offset(interface) == 0.0);
         let side = if is_symmetric { "" } else { " to its weaker side" };

@@ -321,8 +321,8 @@ fn channels(results: &Results, frames: &[Frame]) -> [(&'static str, String); 8] 
 /// The largest angle that the player's curves show `[rad]`, as in the figures. `None` if the column does not overturn: all angles are shown.
 fn largest_shown(results: &Results) -> Option<f64> {
     let column = &results.column;
-    let slenderness = (0..column.len()).map(|interface| column.stack(interface).slenderness());
-    (results.response.status == StopReason::Overturned).then(|| plot::FALL * slenderness.fold(0.0, f64::max))
+    let shown = |interface: usize| plot::fall_angle(column.stack(interface).slenderness());
+    (results.response.status == StopReason::Overturned).then(|| (0..column.len()).map(shown).fold(0.0, f64::max))
 }
 
 /// Interfaces, from 0, at which an event happens: at a start, an opening or a jump those whose state changed, at other events those that the event names.

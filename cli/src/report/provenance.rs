@@ -37,11 +37,19 @@ pub fn provenance(results: &Results) -> String {
         ("Equations", format!("{dynamics}; {} entered", counted(modes, ["mode", "modes"]))),
         ("Output", interval),
     ];
-    let file = shell_word(&results.scene.file.display().to_string());
+    definitions(&rows) + &repetition(results, generic)
+}
+
+/// How to repeat the run and its page.
+fn repetition(results: &Results, generic: bool) -> String {
+    let file = results.scene.file.display().to_string();
+    // Programs name a scene without a file `<scene>`.
+    if file.is_empty() || file.starts_with('<') {
+        return "<p>A program made this run. Its scene is no file's, so that no command repeats it.</p>\n".into();
+    }
     let flag = if generic { " --dynamics generic" } else { "" };
     format!(
-        "{}<p>To repeat the run and this page:</p>\n<pre tabindex=\"0\">rocking run {}{flag} --out out --report</pre>\n",
-        definitions(&rows),
-        escape(&file)
+        "<p>To repeat the run and this page:</p>\n<pre tabindex=\"0\">rocking run {}{flag} --out out --report</pre>\n",
+        escape(&shell_word(&file))
     )
 }

@@ -44,14 +44,16 @@ def run(drawn: "Run", axes: Any = None) -> "npt.NDArray[Any]":
     above.set(ylabel="ground [m/s²]")
     if len(above.lines) > 1:
         above.legend(frameon=False)
-    shares = drawn.theta / drawn.alpha
+    # A stack that does not stand by itself has no slenderness to measure angles by.
+    stands = (np.asarray(drawn.alpha) > 0).all()
+    shares, most = (drawn.theta / drawn.alpha, DRAWN) if stands else (np.degrees(drawn.theta), 90.0)
     for block in range(shares.shape[1]):
         below.plot(drawn.t, shares[:, block], lw=1, marker=marker, label=f"block {block + 1}")
     times = drawn.events["t"][drawn.events["kind"].isin(["impact", "landing"])]
     below.plot(times, np.full(len(times), 0.02), "|", color="0.5", ms=6, transform=below.get_xaxis_transform(), label="impacts")
-    low, high = max(shares.min(), -DRAWN), min(shares.max(), DRAWN)
+    low, high = np.clip([shares.min(), shares.max()], -most, most)
     room = 0.08 * (high - low or 1.0)
-    below.set(xlabel="t [s]", ylabel="θ / α", ylim=(low - 2 * room, high + room))
+    below.set(xlabel="t [s]", ylabel="θ / α" if stands else "θ [°]", ylim=(low - 2 * room, high + room))
     below.set(xlim=(drawn.t[0], drawn.t[-1]) if marker is None else (0.0, drawn.t_final or 1.0))
     below.legend(frameon=False, ncols=min(shares.shape[1] + 1, 6), loc="upper right", fontsize="small")
     above.set_title(drawn.scene.title or f"{drawn._lead}{drawn.outcome}, {drawn.impacts} impact(s)", fontsize="medium")

@@ -397,7 +397,7 @@ class Study:
         if not isinstance(state, str):
             raise TypeError(f"state is of {type(state).__name__}; give the text of one limit state, such as \"overturned\"")
         runs = self._runs()
-        kind = state.strip().split("_")[0].split()[0] if state.strip() else ""
+        kind = re.split(r"[_\s]", state.strip())[0]
         if kind.startswith("peak") and runs.peaks.shape[1] == 0:
             raise StudyError(f"the state `{state}` needs the columns peak_1, ...: run the sweep with ask = \"peaks\"")
         blocks, named = runs.peaks.shape[1], re.match(r"\s*peak_(\d+)", state)

@@ -8,7 +8,7 @@ use crate::terminal::{json, print, warn};
 use crate::text::{printable, shown};
 use rocking::scene::Initial;
 use rocking::scene_file::{Derived, SceneFile};
-use rocking::{Block, Friction, Motion, Restitution, Scene};
+use rocking::{Block, Column, Friction, Motion, Restitution, Scene};
 use serde::{Serialize, Serializer};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -428,6 +428,7 @@ impl Findings {
                 let [pga, lowest] = [motion.pga, lowest].map(|acceleration| acceleration / gravity);
                 let is_displaced = scene.column.slides().iter().any(|slide| *slide != 0.0);
                 let weaker = if is_displaced { " towards its weaker side" } else { "" };
+                let first = first_threshold(&scene.column, &motion.motion, &scene.openings_at_rest());
                 match &*interfaces {
                     "" if is_displaced && pga >= lowest => writeln!(
                         text,
@@ -439,12 +440,32 @@ impl Findings {
                     ),
                     _ => writeln!(
                         text,
-                        "  {pga:.4} g is enough to open interface(s) {interfaces} of the column at rest; the first opens at {lowest:.4} g{weaker}"
+                        "  {pga:.4} g is enough to open interface(s) {interfaces} of the column at rest{}",
+                        first.map_or_else(String::new, |(threshold, side)| format!(
+                            "; the first opens at {:.4} g{side}",
+                            threshold / gravity
+                        ))
                     ),
                 }
             }
         };
     }
+}
+
+/// The horizontal ground acceleration at which the interface that a motion opens first begins to open `[m/s²]`, and the side to which it does where both sides
+/// differ. `openings`: when each interface opens `[s]`. `None` if none does.
+fn first_threshold(column: &Column, motion: &Motion, openings: &[Option<f64>]) -> Option<(f64, &'static str)> {
+    let opened = openings.iter().enumerate().filter_map(|(interface, t)| Some((interface, (*t)?)));
+    let (interface, t) = opened.min_by(|(_, a), (_, b)| a.total_cmp(b))?;
+    // A ground that accelerates to the right tips the blocks to the left.
+    let nearer = -column.centroid_offset(interface) * motion.value(t).signum();
+    let lever = column.contact_half_width(interface) - nearer;
+    let side = match nearer {
+        0.0 => "",
+        nearer if nearer > 0.0 => " towards its weaker side",
+        _ => " towards its stronger side",
+    };
+    Some((column.gravity() * lever / column.centroid_height(interface), side))
 }
 
 impl MotionFindings {
