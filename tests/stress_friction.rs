@@ -27,7 +27,7 @@ const MOST_PHASES: usize = 200_000;
 const MOST_STEPS: usize = 2_000_000;
 
 /// A coefficient that no contact uses up.
-const HOLDS_ALWAYS: f64 = 1e12;
+const HOLDS_ALWAYS: f64 = 1e8;
 
 /// Kinds of scenes.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -252,13 +252,15 @@ impl Piece {
         }
     }
 
-    /// Longest time over which a Taylor series tells of all that the acceleration does `[s]`: a radian of a wavelet, infinite for other pieces. In the tail of a
+    /// Longest time over which a Taylor series tells of all that the acceleration does `[s]`: [`LONGEST_TURN`] of a wavelet, infinite for other pieces. In the tail of a
     /// wavelet all terms are tiny, and so is their error, whatever comes after.
     #[inline]
     pub fn longest_series(&self) -> f64 {
         match *self {
             Piece::Zero | Piece::Linear { .. } | Piece::Sine { .. } | Piece::Cosine { .. } => f64::INFINITY,
-            Piece::Ricker { .. } | Piece::AntisymmetricRicker { .. } | Piece::Gabor { .. } => 1.0 / self.omega(),
+            Piece::Ricker { .. } | Piece::AntisymmetricRicker { .. } | Piece::Gabor { .. } => {
+                LONGEST_TURN / self.omega()
+            }
             Piece::Sum(ref terms) => terms.iter().map(Piece::longest_series).fold(f64::INFINITY, f64::min),
         }
     }
@@ -383,6 +385,10 @@ fn expand_gaussian(amplitude: f64, polynomial: [f64; 4], u: f64, omega: f64, coe
         last = [next, last[0], last[1], last[2]];
     }
 }
+
+/// Angle of a wavelet over which a Taylor series tells of it `[rad]`. In its tail, where `u` is 4, the acceleration grows by `exp(4 · 0.8) = 25` in such a step: the
+/// last terms of the lowest order are below the error by no more than that.
+const LONGEST_TURN: f64 = 0.8;
 
 /// Relative change above which the acceleration jumps. A pulse's end is a few roundings of `omega t` off zero: 1e-12 covers thousands of
 /// periods; a true jump below it has no effect in double precision.

@@ -102,7 +102,7 @@ fn huge_coefficients_are_as_large_ones() {
         response.peak_theta
     };
     let large = with(1e4);
-    for mu in [1e6, 1e7, 1e9] {
+    for mu in [1e6, 1e7, 1e8] {
         for (angle, expected) in with(mu).iter().zip(&large) {
             // It differs by 2.2e-5/μ: what is held by two corners yields along the edge of their cones.
             assert!((angle - expected).abs() < 3e-9, "{mu:e}: {angle} {expected}");
