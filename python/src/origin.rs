@@ -17,7 +17,7 @@ pub struct Origin {
 impl Origin {
     /// What a folder and a report say of the scene. The file is named only if it has this text: a changed scene is not that of the file.
     pub fn scene_text(&self) -> SceneText {
-        let is_of_file = std::fs::read_to_string(&self.file).is_ok_and(|text| text == self.text);
+        let is_of_file = rocking::scene_file::text(&self.file).is_ok_and(|text| text == self.text);
         SceneText { file: if is_of_file { self.file.clone() } else { NO_FILE.into() }, text: self.text.clone() }
     }
 }

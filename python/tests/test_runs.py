@@ -76,6 +76,39 @@ def test_the_folder_of_a_run_is_that_of_the_command_line(scenes: Path, command, 
         assert (tmp_path / "python" / name).read_bytes() == (tmp_path / "command" / name).read_bytes()
 
 
+def test_a_folder_names_a_file_only_for_its_own_scene(tmp_path: Path) -> None:
+    file = tmp_path / "base.toml"
+    file.write_text("[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.6\n[excitation.horizontal]\nkind = \"sine-pulse\"\namplitude_uplift = 2\nomega_p = 5\n")
+    base = rk.Scene.load(file)
+    named = {
+        "own": base,
+        "changed": base.replace(eta=0.8),
+        "point": rk.Sweep(base, {"amplitude_uplift": [2, 8]}).scene(1),
+        "text": rk.Scene.from_toml(file.read_text()),
+    }
+    pages = {}
+    for name, scene in named.items():
+        run = rk.simulate(scene)
+        run.write(tmp_path / name)
+        run.report(tmp_path / f"{name}.html")
+        pages[name] = (tmp_path / f"{name}.html").read_text()
+    origins = {name: json.loads((tmp_path / name / "summary.json").read_text())["scene"] for name in named}
+    assert {name: origin["file"] for name, origin in origins.items()} == {"own": str(file), "changed": "<scene>", "point": "<scene>", "text": "<scene>"}
+    assert "# excitation.horizontal.amplitude_uplift = 8\n" in origins["point"]["text"]
+    assert [name for name, page in pages.items() if "To repeat the run" in page] == ["own"]
+
+
+def test_stacks_that_do_not_stand_are_drawn_in_degrees() -> None:
+    blocks = [rk.Block(half_width=0.4, half_height=0.5)] * 3
+    leaning = rk.simulate(rk.Scene(rk.Column(blocks), slide=[0, 0.4, 0.4], t_end=2))
+    above, below = leaning.plot()
+    low, high = below.get_ylim()
+    assert below.get_ylabel() == "θ [°]" and -110 < low < high < 110 and low <= np.degrees(leaning.theta).clip(-90, 90).min()
+    # A block that begins beyond what is drawn.
+    fallen = rk.simulate(rk.Column.prisms(1, half_width=0.4, half_height=1.6), theta=[0.35], t_end=1).plot()[1]
+    assert fallen.get_ylim()[0] < fallen.get_ylim()[1]
+
+
 def test_a_scene_of_arguments_is_the_scene_of_the_file(scenes: Path) -> None:
     column = rk.Column.cut(3, half_width=0.4, half_height=1.56)
     motion = rk.pulse("sine-pulse", amplitude_uplift=3.0, omega_p=5.0)
