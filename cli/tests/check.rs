@@ -200,9 +200,22 @@ fn the_threshold_is_that_of_the_interface_which_opens_first() {
     assert_has(
         &told,
         &[
-            "0.3800 g is enough to open interface(s) 2 of the column at rest; the first opens at 0.3600 g towards its stronger side",
+            "0.3800 g is enough to open interface(s) 2 of the column at rest; the first opens at 0.3600 g towards its stronger side; the least that opens one, to its weaker side, is 0.2184 g",
         ],
     );
+    // All interfaces open in the instant of the jump.
+    let jump = "[[block]]\nhalf_width = 0.4\nhalf_height = 0.5\n[[block]]\nhalf_width = 0.1\nhalf_height = 0.5\n\
+        [excitation.horizontal]\nkind = \"rectangular\"\namplitude_g = 0.9\nduration = 0.2\nstart = 0.3\n[solver]\nt_end = 2\n";
+    let told = Folder::with("scene.toml", jump).succeeds("check scene.toml");
+    assert_has(
+        &told,
+        &["0.9000 g is enough to open interface(s) 1, 2 of the column at rest; the first opens at 0.2000 g\n"],
+    );
+    // The upper blocks lean beyond their support: nothing but their weight opens interface 2, at once.
+    let leaning = "[[block]]\nhalf_width = 0.4\nhalf_height = 0.5\n".repeat(3)
+        + "[initial]\nslide = [0.0, -0.39, -0.39]\n[excitation.horizontal]\nkind = \"half-sine\"\namplitude_g = 0.38\nomega = 6.0\n[solver]\nt_end = 2\n";
+    let told = Folder::with("scene.toml", &leaning).succeeds("check scene.toml");
+    assert_has(&told, &["the first opens at 0.0000 g towards its weaker side"]);
 }
 
 #[test]

@@ -396,7 +396,9 @@ fn a_value_is_given_once() {
     let folder = folder("scene = \"base.toml\"\n[axes]\neta = [0.8, 0.9, 0.8]\n");
     folder.refused("sweep sweep.toml", &["line 3", "`axes.eta`", "0.8 is there twice", "give each value once"]);
     folder.write("sweep.toml", "scene = \"base.toml\"\n[axes]\neta = { from = 0.8, to = 0.8, steps = 3 }\n");
-    folder.refused("sweep sweep.toml", &["line 3", "`axes.eta`", "0.8 is there twice", "give each value once"]);
+    folder.refused("sweep sweep.toml", &["line 3", "`axes.eta`", "all its values are 0.8", "give different ends"]);
+    folder.write("sweep.toml", "scene = \"base.toml\"\n[axes]\neta = { from = 0.8, to = 0.8, steps = 3, bogus = 1 }\n");
+    folder.refused("sweep sweep.toml", &["line 3", "bogus", "unknown"]);
     folder.write(
         "sweep.toml",
         "scene = \"base.toml\"\ncombine = \"paired\"\n[axes]\neta = [0.8, 0.8]\nomega = [9.0, 11.0]\n",

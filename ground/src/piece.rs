@@ -386,8 +386,8 @@ fn expand_gaussian(amplitude: f64, polynomial: [f64; 4], u: f64, omega: f64, coe
     }
 }
 
-/// Angle of a wavelet over which a Taylor series tells of it `[rad]`. In its tail, where `u` is 4, the acceleration grows by `exp(4 · 0.8) = 25` in such a step: the
-/// last terms of the lowest order are below the error by no more than that.
+/// Angle of a wavelet over which a Taylor series tells of it `[rad]`. Where a wavelet is cut off, below 1e-6 of its amplitude, `u` is above 5, and the
+/// acceleration grows by less than `exp(0.8 u) ≈ 70` in such a step: what the terms do not tell of is some 1e-4 of the amplitude at most.
 const LONGEST_TURN: f64 = 0.8;
 
 /// Relative change above which the acceleration jumps. A pulse's end is a few roundings of `omega t` off zero: 1e-12 covers thousands of

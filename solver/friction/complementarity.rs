@@ -65,17 +65,16 @@ pub fn states(
         Contact { corner, coefficient, slip, free: free_change(&chain, now, question, corner), place, axes }
     };
     let contacts: Vec<Contact> = touch.iter().enumerate().flat_map(corners).map(contact).collect();
-    let found = solved(&chain, &contacts)?;
+    let solution = solved(&chain, &contacts)?;
     let most = contacts.iter().fold(0.0f64, |most, own| most.max(own.free[0].abs()).max(own.free[1].abs()));
     let joint = |(interface, touch): (usize, &Touch)| {
-        let own = contacts.iter().zip(&found).filter(|(contact, _)| contact.corner.interface == interface);
-        let held: Vec<(&Contact, &Found)> =
-            own.filter(|(_, found)| found.presses || found.gap <= UNCHANGED * most).collect();
-        let Some((first, found)) = held.first() else { return Joint::Free };
-        let slip = match (first.slip, !found.slides || found.slide.abs() <= UNCHANGED * most) {
+        let own = contacts.iter().zip(&solution).filter(|(contact, _)| contact.corner.interface == interface);
+        let held: Vec<(&Contact, &Found)> = own.filter(|(_, own)| own.presses || own.gap <= UNCHANGED * most).collect();
+        let Some((first, own)) = held.first() else { return Joint::Free };
+        let slip = match (first.slip, !own.slides || own.slide.abs() <= UNCHANGED * most) {
             (Some(given), _) => Slip::Slides(given),
             (None, true) => Slip::Sticks,
-            (None, false) => Slip::along(found.slide),
+            (None, false) => Slip::along(own.slide),
         };
         match touch {
             Touch::Faces if held.len() == 2 => Joint::Closed(slip),

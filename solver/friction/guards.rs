@@ -91,7 +91,9 @@ pub fn guards(joints: &[Joint], kinetic: &[f64]) -> Vec<Guard> {
             }
         }
         // What lies flat on a block turns with it.
-        guards.extend((i == 0 || !matches!(joint, Joint::Closed(_))).then_some(Guard::Overturn(i)));
+        if i == 0 || !matches!(joint, Joint::Closed(_)) {
+            guards.push(Guard::Overturn(i));
+        }
     }
     guards
 }

@@ -55,8 +55,8 @@ pub(super) const PANELS_PER_RADIAN_TURNED: f64 = 20.0;
 /// Panels per radian of the ground motion.
 const PANELS_PER_RADIAN_OF_GROUND: f64 = 2.0;
 
-/// Panels more per radian of a wavelet, whose third derivative is a dozen times that of a sine.
-const PANELS_PER_RADIAN_OF_WAVELET: f64 = 4.0;
+/// Panels more in the longest step over a wavelet (0.8 radian), whose third derivative is a dozen times that of a sine.
+const PANELS_OF_LONGEST_WAVELET_STEP: f64 = 4.0;
 
 /// Panels in the time `1/p` of the column's fastest stack: forces of slender blocks vary with the angle's share of the slenderness, however little they turn.
 const PANELS_PER_OWN_TIME: f64 = 2.0;
@@ -342,7 +342,7 @@ impl Phase {
         let radians = step.h * segment.horizontal.omega().max(segment.vertical.omega());
         let usual = PANELS_PER_RADIAN_TURNED * turned
             + PANELS_PER_RADIAN_OF_GROUND * radians
-            + PANELS_PER_RADIAN_OF_WAVELET * (step.h / segment.longest_series())
+            + PANELS_OF_LONGEST_WAVELET_STEP * (step.h / segment.longest_series())
             + PANELS_PER_OWN_TIME * (step.h * self.fastest);
         let panels = (problem.panels * usual.ceil().clamp(1.0, MOST_PANELS)) as usize;
         let at = |place: f64| place / panels as f64;

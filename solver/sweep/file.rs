@@ -256,12 +256,14 @@ fn read_axes(
         let path = if above.is_empty() { key.clone() } else { format!("{above}.{key}") };
         if let Some(values) = table.settings(&key)? {
             if let Some(twice) = repeated(&values).filter(|_| combine != Combine::Paired) {
-                return Err(given_twice(table, &key, twice));
+                let problem = format!("{twice} is there twice, and its points would be run and counted twice");
+                return Err(table.wrong(&key, problem, "give each value once"));
             }
             axes.push((axis(table, &key, &path, values, template)?, table.find(&key), None));
             continue;
         }
         let Some(mut inner) = table.table(key.clone())? else { continue };
+        let mut same_ends = None;
         // An empty section is allowed if the scene has this table: its axes may be commented out.
         if inner.keys().is_empty() && !template.has_table(&path) {
             return Err(no_values(table, &key));
@@ -279,13 +281,10 @@ fn read_axes(
                 (true, false) => files(&mut inner, &name, template)?,
                 (true, true) => stations(&mut inner, template)?,
             };
-            // A range from a number to the same number.
-            if let [first, .., last] = &values[..]
-                && first == last
-                && combine != Combine::Paired
-            {
-                return Err(given_twice(table, &key, first));
-            }
+            same_ends = match &values[..] {
+                [first, .., last] if first == last && combine != Combine::Paired => Some(first.clone()),
+                _ => None,
+            };
             axes.push((axis(table, &key, &path, values, template)?, table.find(&key), None));
         } else if is_no_table(&path) {
             let problem = format!("`{}` makes no axis of it", inner.keys().join("`, `"));
@@ -295,13 +294,12 @@ fn read_axes(
             read_axes(&mut inner, &path, template, combine, axes)?;
         }
         inner.close()?;
+        if let Some(value) = same_ends {
+            let problem = format!("all its values are {value}: its points would be run and counted several times");
+            return Err(table.wrong(&key, problem, "give different ends, or leave `steps` out"));
+        }
     }
     Ok(())
-}
-
-fn given_twice(table: &Table, key: &str, value: &Setting) -> Wrong {
-    let problem = format!("{value} is there twice, and its points would be run and counted twice");
-    table.wrong(key, problem, "give each value once")
 }
 
 /// A value that is there twice.

@@ -90,7 +90,7 @@ fn the_least_normal_force_of_a_slide_is_that_at_the_crest() {
         for (method, rtol) in [(Method::Auto, 1e-6), (Method::Auto, 1e-12), (Method::Dop853, 1e-6)] {
             (scene.options.method, scene.options.rtol) = (method, rtol);
             let found = run(&scene).min_normal_force[0];
-            assert!((found / least - 1.0).abs() < 1e-5, "{method:?} {rtol}: {found} for {least}");
+            assert!((found / least - 1.0).abs() < 1e-6, "{method:?} {rtol}: {found} for {least}");
         }
     }
 }
@@ -221,7 +221,6 @@ fn regression_hops_without_which_no_motion_follows_go_on() {
     assert!(stands, "{:?} at {} s", response.status, response.t_final);
 }
 
-/// Hops below 1e-14 rad cannot be told from rounding of the angles: such scenes would not end, with friction or without.
 /// Lemke's method solves this impact with errors of 3e-9 of the velocities: contacts that press were taken for open.
 #[test]
 fn regression_an_impact_of_eight_drums_has_an_answer() {
@@ -251,6 +250,7 @@ fn regression_an_impact_of_eight_drums_has_an_answer() {
     assert_ne!(response.status, StopReason::Undetermined, "at {}", response.t_final);
 }
 
+/// Hops below 1e-14 rad cannot be told from rounding of the angles: such scenes would not end, with friction or without.
 #[test]
 fn a_stick_angle_of_rounding_is_refused() {
     let mut scene = scene(vec![Block::rectangle(0.5, 0.5, 1.0)], vec![0.5]);

@@ -314,8 +314,11 @@ fn caption(motion: &DrawnRun) -> String {
         motion.knots.iter().any(|knot| knot.theta.iter().zip(angles).any(|(theta, most)| theta.abs() >= *most))
     };
     if motion.overturned() && reaches(&motion.fall_angles()) {
-        let others =
-            if slenderness.iter().all(|alpha| *alpha > 0.0) { "" } else { ", at 90° where αᵢ is not above zero" };
+        let others = if slenderness.iter().all(|alpha| *alpha > 0.0) {
+            ""
+        } else {
+            ", and at 90° where αᵢ is not above zero: angles are in degrees, as such a stack does not stand by itself"
+        };
         caption.push_str(&format!(" Curves leave the panel where the column falls, at {FALL} α{others}."));
     }
     if balance(motion).is_some() && reaches(&slenderness) {

@@ -45,7 +45,7 @@ fn repetition(results: &Results, generic: bool) -> String {
     let file = results.scene.file.display().to_string();
     // Programs name a scene without a file `<scene>`.
     if file.is_empty() || file.starts_with('<') {
-        return "<p>A program made this run. Its scene is no file's, so that no command repeats it.</p>\n".into();
+        return "<p>A program made this run, from a scene that no file has, or that its file had no longer: no command repeats it.</p>\n".into();
     }
     let flag = if generic { " --dynamics generic" } else { "" };
     format!(

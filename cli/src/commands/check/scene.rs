@@ -441,10 +441,14 @@ impl Findings {
                     _ => writeln!(
                         text,
                         "  {pga:.4} g is enough to open interface(s) {interfaces} of the column at rest{}",
-                        first.map_or_else(String::new, |(threshold, side)| format!(
-                            "; the first opens at {:.4} g{side}",
-                            threshold / gravity
-                        ))
+                        first.map_or_else(String::new, |(threshold, side)| {
+                            let threshold = threshold / gravity;
+                            let least = match lowest < threshold * (1.0 - 1e-9) {
+                                true => format!("; the least that opens one, to its weaker side, is {lowest:.4} g"),
+                                false => String::new(),
+                            };
+                            format!("; the first opens at {threshold:.4} g{side}{least}")
+                        })
                     ),
                 }
             }
@@ -453,19 +457,25 @@ impl Findings {
 }
 
 /// The horizontal ground acceleration at which the interface that a motion opens first begins to open `[m/s²]`, and the side to which it does where both sides
-/// differ. `openings`: when each interface opens `[s]`. `None` if none does.
+/// differ: of several that open at once, the one that takes least. `openings`: when each interface opens `[s]`. `None` if none does.
 fn first_threshold(column: &Column, motion: &Motion, openings: &[Option<f64>]) -> Option<(f64, &'static str)> {
-    let opened = openings.iter().enumerate().filter_map(|(interface, t)| Some((interface, (*t)?)));
-    let (interface, t) = opened.min_by(|(_, a), (_, b)| a.total_cmp(b))?;
-    // A ground that accelerates to the right tips the blocks to the left.
-    let nearer = -column.centroid_offset(interface) * motion.value(t).signum();
-    let lever = column.contact_half_width(interface) - nearer;
-    let side = match nearer {
-        0.0 => "",
-        nearer if nearer > 0.0 => " towards its weaker side",
-        _ => " towards its stronger side",
+    let threshold = |(interface, t): (usize, &Option<f64>)| {
+        let t = (*t)?;
+        let (offset, push) = (column.centroid_offset(interface), motion.value(t));
+        // A ground that accelerates to the right tips the blocks to the left. Without a push only a stack that leans beyond its support opens, to its weaker side.
+        let nearer = if push == 0.0 { offset.abs() } else { -offset * push.signum() };
+        let lever = column.contact_half_width(interface) - nearer;
+        let side = match nearer {
+            0.0 => "",
+            nearer if nearer > 0.0 => " towards its weaker side",
+            _ => " towards its stronger side",
+        };
+        Some((t, (column.gravity() * lever / column.centroid_height(interface)).max(0.0), side))
     };
-    Some((column.gravity() * lever / column.centroid_height(interface), side))
+    let first = openings.iter().enumerate().filter_map(threshold);
+    let first =
+        first.min_by(|(t, size, _), (other, other_size, _)| t.total_cmp(other).then(size.total_cmp(other_size)));
+    first.map(|(_, size, side)| (size, side))
 }
 
 impl MotionFindings {
