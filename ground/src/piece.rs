@@ -252,7 +252,7 @@ impl Piece {
         }
     }
 
-    /// Longest time over which a Taylor series tells of all that the acceleration does `[s]`: [`LONGEST_TURN`] of a wavelet, infinite for other pieces. In the tail of a
+    /// Longest time over which a Taylor series tells of all that the acceleration does `[s]`: 0.8 radian of a wavelet, infinite for other pieces. In the tail of a
     /// wavelet all terms are tiny, and so is their error, whatever comes after.
     #[inline]
     pub fn longest_series(&self) -> f64 {
