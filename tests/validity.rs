@@ -42,6 +42,33 @@ fn demands_of_forces_are_those_of_short_steps() {
     }
 }
 
+/// A slender block turns little, and its forces vary with the angle's share of the slenderness: they are read in parts of the time `1/p`. Before, demands were off by
+/// 5e-3.
+#[test]
+fn demands_of_a_slender_block_are_those_of_short_steps() {
+    let text = r#"
+        [[block]]
+        half_width = 0.01
+        half_height = 1.0
+        [excitation.horizontal]
+        kind = "sine-pulse"
+        amplitude_uplift = 4.0
+        omega_p = 0.5
+        [excitation.vertical]
+        kind = "cosine-pulse"
+        amplitude = -4.905
+        omega_p = 0.5
+        [solver]
+        t_end = 0.6
+        rtol = 1e-9
+    "#;
+    let short = run(text, Method::KuttaMerson).friction_demand[0];
+    for method in [Method::Auto, Method::Taylor, Method::Dop853, Method::DormandPrince54] {
+        let demand = run(text, method).friction_demand[0];
+        assert!((demand / short - 1.0).abs() < 6e-4, "{method:?}: {demand} and {short}");
+    }
+}
+
 /// Demands below 1, half of the columns with vertical motion as well. Measured: 2,954 demands, off by up to 5.7e-4.
 #[test]
 fn demands_of_random_columns_are_those_of_short_steps() {
