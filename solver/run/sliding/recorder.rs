@@ -36,14 +36,14 @@ pub trait StepInside<'p>: Snapshots<'p> {
     /// Visits the nodes of a quadrature up to a time `[s]`.
     fn nodes(&mut self, until: f64, visit: &mut dyn FnMut(&Node));
 
-    /// The largest value of a quantity of a contact's force, as in [`Node::contacts`], up to a time `[s]`, or `so_far` if that is larger.
+    /// The largest values of two quantities of a contact's force, as in [`Node::contacts`], up to a time `[s]`, or `so_far` where that is larger.
     fn highest_of_force(
         &mut self,
         until: f64,
         interface: usize,
-        so_far: f64,
-        quantity: &dyn Fn(&ContactForce) -> f64,
-    ) -> f64;
+        so_far: [f64; 2],
+        quantities: [&dyn Fn(&ContactForce) -> f64; 2],
+    ) -> [f64; 2];
 
     /// The largest gap of a free interface up to a time `[s]`, or `so_far` if that is larger `[m]`.
     fn highest_gap(&mut self, until: f64, interface: usize, so_far: f64) -> f64;
@@ -344,8 +344,9 @@ impl<'p> SlidingRecorder<'p> {
         let demand = |contact: &ContactForce| if contact.normal > least { contact.friction_demand() } else { 0.0 };
         let Extremes { min_normal_force, friction_demand, .. } = &mut self.log.extremes;
         let (normal, largest) = (&mut min_normal_force[interface], &mut friction_demand[interface]);
-        *normal = -inside.highest_of_force(until, interface, -*normal, &pull);
-        *largest = inside.highest_of_force(until, interface, *largest, &demand);
+        let [most_pull, most_demand] =
+            inside.highest_of_force(until, interface, [-*normal, *largest], [&pull, &demand]);
+        (*normal, *largest) = (-most_pull, most_demand);
     }
 
     /// Records work at a node of the quadrature over a step.

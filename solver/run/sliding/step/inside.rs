@@ -77,27 +77,32 @@ impl<'p, O: Output> StepInside<'p> for Step<'_, 'p, O> {
         &mut self,
         until: f64,
         interface: usize,
-        so_far: f64,
-        quantity: &dyn Fn(&ContactForce) -> f64,
-    ) -> f64 {
+        so_far: [f64; 2],
+        quantities: [&dyn Fn(&ContactForce) -> f64; 2],
+    ) -> [f64; 2] {
         let end = self.place(until);
-        let value = |s: f64| self.contact_at(s, interface).as_ref().map_or(f64::NEG_INFINITY, quantity);
-        highest(value, end, so_far)
+        let forces = places(end).map(|s| self.contact_at(s, interface));
+        [0, 1].map(|k| {
+            let of = |force: &Option<ContactForce>| force.as_ref().map_or(f64::NEG_INFINITY, quantities[k]);
+            highest(|s| of(&self.contact_at(s, interface)), forces.each_ref().map(of), end, so_far[k])
+        })
     }
 
     fn highest_gap(&mut self, until: f64, interface: usize, so_far: f64) -> f64 {
         let end = self.place(until);
         let Some(span) = self.output.series() else {
-            let gap = |s: f64| {
+            let mut gap = |s: f64| {
                 self.output.state(s, &mut self.state);
                 contacts::gap(self.smooth.column, &self.smooth.configuration(&self.state), interface)
             };
-            return highest(gap, end, so_far);
+            let values = places(end).map(&mut gap);
+            return highest(gap, values, end, so_far);
         };
         let corners: Vec<_> = Corner::all(interface).map(|corner| span.corner_path(corner)).collect();
         let position =
             |([along, above], reach): &([Powers; 2], f64), s: f64| [along.evaluate(s).abs() - reach, above.evaluate(s)];
-        highest(|s| contacts::least_distance(corners.iter().map(|corner| position(corner, s))), end, so_far)
+        let gap = |s: f64| contacts::least_distance(corners.iter().map(|corner| position(corner, s)));
+        highest(gap, places(end).map(gap), end, so_far)
     }
 }
 
@@ -145,15 +150,18 @@ impl<O: Output> Step<'_, '_, O> {
 /// Places at which a quantity is sampled over a step.
 const PLACES: usize = 5;
 
+/// These places, from the start of the step to the place `end`.
+fn places(end: f64) -> [f64; PLACES] {
+    std::array::from_fn(|index| end * index as f64 / (PLACES - 1) as f64)
+}
+
 /// Rounds in which a crest is enclosed by the golden section: the place is found to `0.618^40`, `4e-9` of the step.
 const ROUNDS_TO_CREST: usize = 40;
 
-/// The largest value of a quantity over the step up to the place `end`, or `so_far` if that is larger: an end, or a crest beside the highest of several places,
-/// found by the golden section. Gaps of flying corners over a face are concave in time but for their rotation, and so is the lowest of them, which has kinks;
-/// beside a face the gap grows with the distance. Forces are smooth, and steps short beside their changes.
-fn highest(mut value: impl FnMut(f64) -> f64, end: f64, so_far: f64) -> f64 {
-    let place = |index: usize| end * index as f64 / (PLACES - 1) as f64;
-    let values: [f64; PLACES] = std::array::from_fn(|index| value(place(index)));
+/// The largest value of a quantity over the step up to the place `end`, or `so_far` if that is larger; `values` are those at [`places`]. It is at an end, or at
+/// a crest beside the highest of them, found by the golden section. Gaps of flying corners over a face are concave in time but for their rotation, and so is
+/// the lowest of them, which has kinks; beside a face the gap grows with the distance. Forces are smooth, and steps short beside their changes.
+fn highest(mut value: impl FnMut(f64) -> f64, values: [f64; PLACES], end: f64, so_far: f64) -> f64 {
     let most = (1..PLACES).fold(0, |most, own| if values[own] > values[most] { own } else { most });
     let so_far = so_far.max(values[most]);
     // The crest is beside this place, and no higher than the chords from one side continued to the other.
@@ -162,7 +170,7 @@ fn highest(mut value: impl FnMut(f64) -> f64, end: f64, so_far: f64) -> f64 {
     if bound <= so_far {
         return so_far;
     }
-    let [mut low, mut high] = [middle - 1, middle + 1].map(place);
+    let [mut low, mut high] = [middle - 1, middle + 1].map(|index| places(end)[index]);
     let share = 0.5 * (5f64.sqrt() - 1.0);
     let mut inner = [high - share * (high - low), low + share * (high - low)];
     let mut heights = inner.map(&mut value);
