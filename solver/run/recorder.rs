@@ -262,8 +262,8 @@ impl Recorder {
     }
 }
 
-/// The largest friction demands of forces in a stretch, per interface, from this many times as many panels as a recorder reads.
-pub(crate) fn friction_demand_in(problem: &Problem, panels: f64, stretch: &mut Stretch) -> PerBlock<f64> {
+/// The largest friction demands and the least normal forces `[N]` in a stretch, per interface, from this many times as many panels as a recorder reads.
+pub(crate) fn forces_in(problem: &Problem, panels: f64, stretch: &mut Stretch) -> (PerBlock<f64>, PerBlock<f64>) {
     let finer = problem.with_panels(panels);
     let blocks = problem.scene.column.len();
     let (mut demand, mut least) = (PerBlock::filled(0.0, blocks), PerBlock::filled(f64::INFINITY, blocks));
@@ -275,7 +275,7 @@ pub(crate) fn friction_demand_in(problem: &Problem, panels: f64, stretch: &mut S
     } else {
         read(stretch);
     }
-    demand
+    (demand, least)
 }
 
 /// Raises the largest friction demands and lowers the least normal forces, per interface, by those of a panel: extremes of the parabolas through its

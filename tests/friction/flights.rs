@@ -27,6 +27,25 @@ fn blocks_fly_and_land_together() {
     }
 }
 
+/// A rocking block whose weight vanishes by some 1e-5 of itself for a moment: parabolas through its normal force, which steps of different lengths place
+/// elsewhere, showed a force that stays positive at half of the tolerances.
+#[test]
+fn a_contact_that_barely_parts_does_so_at_any_tolerance() {
+    for rtol in [1e-7, 1e-9, 1e-11, 1e-13] {
+        let mut scene = scene(vec![Block::rectangle(0.4, 1.6, 1.0)], vec![0.6]);
+        scene.initial.theta = vec![0.09725616036134274];
+        scene.excitation.vertical = Some(Motion::SinePulse {
+            amplitude: 9.809783583975609,
+            omega: 29.347052025328605,
+            start: 0.7401153030786057,
+        });
+        (scene.options.rtol, scene.options.atol) = (rtol, rtol);
+        scene.options.t_end = 3.0;
+        let response = run(&scene);
+        assert!(response.sliding.expect("with friction").flights[0] > 0, "{rtol}");
+    }
+}
+
 /// A ground whose acceleration falls steadily below that of gravity: where it does, all forces vanish at once, and all blocks fly. Then they land together.
 #[test]
 fn blocks_fly_where_vertical_motion_takes_their_weight() {

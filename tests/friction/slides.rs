@@ -178,6 +178,27 @@ fn equal_friction_lets_the_lowest_contact_slide_alone() {
     }
 }
 
+/// A ramp of a millisecond to 6 m/s², an hour after the start of the run, where the time resolves the instant of the slip to 1e-12 s only: the base, which reaches
+/// its static friction first, slides alone, as it does at the start of a run. The contact above, with less kinetic than static friction, began to slide instead.
+#[test]
+fn late_in_a_run_the_contact_that_reaches_its_cone_slides() {
+    let residual = |start: f64| {
+        let blocks = [Block::rectangle(0.4, 0.6, 5.0), Block::rectangle(0.25, 0.7, 1.0)];
+        let mut scene = scene(blocks.to_vec(), vec![0.0; 2]);
+        scene.friction = Some(Friction::new(vec![0.172, 0.224], vec![0.172, 0.148]));
+        let mut accelerations = vec![6.0; 202];
+        (accelerations[0], accelerations[201]) = (0.0, 0.0);
+        let record = Record::new(accelerations, 1e-3, start).expect("valid");
+        scene.excitation.horizontal = Some(Motion::Record(record));
+        scene.options.t_end = start + 3.0;
+        let response = run(&scene);
+        assert_eq!(slide(&response, 1), 0.0, "{start} s");
+        slide(&response, 0)
+    };
+    // Times late in a run are rounded to 5e-13 s, slides of 2 m/s to 1e-12 m.
+    assert_relative_eq!(residual(4096.0), residual(0.0), epsilon = 1e-11);
+}
+
 /// Sliding and rocking from rest: `N = m g (1 + t²)/D`, `|θ̈| = 3 g (μ - t)/(h D)`, `D = 1 + 4t² - 3μt`.
 #[test]
 fn sliding_and_rocking_from_rest_begins_as_the_closed_form() {

@@ -9,6 +9,7 @@ use rocking::column::Shape;
 use rocking::ground::{Motion, Synthetic};
 use rocking::response::{BlockAtEvent, BlockState, Event};
 use rocking::{Block, Column, EventKind, Friction, Method, Response, Restitution, Scene, StopReason, Wanted, simulate};
+use std::f64::consts::TAU;
 
 /// A drum beyond the edge of the one below has no angle of balance: its share is infinite from the start.
 #[test]
@@ -294,12 +295,57 @@ fn a_loose_stick_angle_lets_columns_stand_that_stand() {
     assert!(standing > 10, "{standing}");
 }
 
+/// Four tapered and displaced drums: in one instant of their run a corner closes whose hop cannot be resolved, and no impulse does it.
+fn tapered_that_closes_without_an_impact() -> Scene {
+    let halves = [0.5067065225017187, 0.4763041311516155, 0.44590173980151243, 0.41549934845140934, 0.3850969571013062];
+    let half_height = 0.7526318959820355;
+    let block = |ends: &[f64]| {
+        Block::of_shape(Shape::Prism, [ends[0], ends[1]], half_height, 2.0 * half_height * (ends[0] + ends[1]))
+    };
+    let column = Column::new(halves.windows(2).map(block).collect(), GRAVITY).expect("valid");
+    let slides = [-0.01731387195092248, -0.01399080804578149, -0.045126231588182464, 0.049795752177554095];
+    let mut scene = Scene::new(column.displaced(slides.to_vec()).expect("on their supports"));
+    scene.friction = Some(Friction::uniform(0.3));
+    scene.initial.theta = vec![0.0, 0.0, 0.12959840905801648, 0.12453181131507621];
+    scene.initial.omega = vec![0.0; 4];
+    scene.excitation.horizontal =
+        Some(Motion::CosinePulse { amplitude: 12.525568696757613, omega: TAU / 1.380117980607292, start: 0.0 });
+    scene.options.t_end = 8.0;
+    scene
+}
+
+/// Four drums whose lowest hop that is followed, 1e-14 rad, is lower than a method without series resolves: landings of such a hop were found again and again
+/// in one instant, and the run ended undetermined.
+#[test]
+fn hops_below_the_resolution_of_a_method_end() {
+    let block = |half_width, half_height, density| Block::rectangle(half_width, half_height, density);
+    let blocks = [
+        block(0.573417853672763, 1.0773575333946295, 2.2938581786900794),
+        block(0.3356423893446624, 0.5634757045078078, 2700.0),
+        block(0.4025128436092772, 1.0009226742034432, 3.3911219349981954),
+        block(0.3789063386103455, 0.8053998899652515, 1.0),
+    ];
+    let mut scene = scene(blocks.to_vec(), vec![0.4; 4]);
+    scene.initial.theta = vec![0.0, -0.09872221208957566, 0.0, -0.03344154602019758];
+    scene.initial.omega = vec![0.0, 0.0, 0.4742636461044478, 0.0];
+    scene.excitation.horizontal =
+        Some(Motion::SinePulse { amplitude: 1.254177969799264, omega: TAU / 1.3342597725995355, start: 0.0 });
+    scene.excitation.vertical =
+        Some(Motion::CosinePulse { amplitude: 3.6538392573438605, omega: TAU / 0.5655854920692572, start: 0.0 });
+    scene.options.t_end = 8.0;
+    (scene.options.method, scene.options.stick_angle) = (Method::Dop853, 1e-14);
+    assert_eq!(run(&scene).status, StopReason::AtRest);
+}
+
 /// Every slide, flight and corner begins and ends with an event: the states before an event are those after the event before it.
 #[test]
 fn states_change_at_events_only() {
     let mut slides_from_impacts = 0;
-    for mut scene in random_scenes(200) {
+    let random = random_scenes(200).map(|mut scene| {
         scene.friction = Some(Friction::new(vec![0.4; scene.column.len()], vec![0.3; scene.column.len()]));
+        scene
+    });
+    for scene in random.chain([tapered_that_closes_without_an_impact()]) {
         let response = run(&scene);
         for pair in response.events.windows(2).filter(|pair| pair[1].states_before.is_some()) {
             assert_eq!(pair[0].states_after, pair[1].states_before, "{} s, {} s", pair[0].t, pair[1].t);

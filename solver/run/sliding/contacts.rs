@@ -156,7 +156,11 @@ pub fn met(
     let tolerance = FACE_SHARE * resolution.size;
     let is_lower = interface == 0 || beside <= tolerance && above.abs() <= tolerance;
     let corner = if is_lower { lower } else { Corner { face: Face::Upper, ..lower } };
-    let slide = gaps::slide_of_landing(&chain, corner);
+    let slide = match touch {
+        // The same for mirror images, to the last bit.
+        Touch::Faces => slide(&chain, now, interface),
+        _ => gaps::slide_of_landing(&chain, corner),
+    };
     let [rate, _] = gaps::slide_and_gap_rates(&chain, &Rates::of(now), corner);
     let slip = if rate.abs() <= resolution.speed { Slip::Sticks } else { Slip::along(rate) };
     let joint = match (touch, slip, face(column, interface, side, slide)) {

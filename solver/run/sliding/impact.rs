@@ -66,8 +66,13 @@ impl PendingTransition<'_> {
         let [beside, other_above] = gaps::corner_position(&chain, Corner { side: -side, ..corner });
         let is_flat = self.now.relative_angle(interface).abs() <= self.resolution.angle
             || beside <= 0.0 && other_above.abs() <= self.resolution.gap;
-        self.now.slide[interface] = gaps::slide_of_landing(&chain, corner);
-        if is_flat { Touch::Faces } else { Touch::Corner(side) }
+        let (slide, touch) = match is_flat {
+            // The same for mirror images, to the last bit.
+            true => (contacts::slide(&chain, &self.now, interface), Touch::Faces),
+            false => (gaps::slide_of_landing(&chain, corner), Touch::Corner(side)),
+        };
+        self.now.slide[interface] = slide;
+        touch
     }
 
     /// The impact of an interface that closes or lands, and of all others that do so in the same instant, to rounding: they are one problem.

@@ -65,13 +65,6 @@ pub fn transition(
     let (kind, hint) = match guard {
         Guard::Jam => {
             pending.jam();
-            if pending.changes.is_empty() && pending.stop.is_none() {
-                // Low hops and slides have ended without impulses.
-                let ended =
-                    |interface: &usize| pending.now.joints[*interface] != before.configuration.joints[*interface];
-                let ended = (0..pending.now.joints.len()).filter(ended).collect();
-                pending.change(EventKind::Stick, ended, &before.configuration, None);
-            }
             (EventKind::Impact, None)
         }
         Guard::Overturn(block) => return pending.end(RunEnd::Overturned(block)),
@@ -109,6 +102,8 @@ pub(super) struct PendingTransition<'p> {
     pub(super) t: f64,
     /// Time by which the ground's acceleration is ahead `[s]`; not zero if the events of this instant go in a cycle.
     lookahead: f64,
+    /// Blocks and interfaces at `x⁻`.
+    came: Configuration,
     pub now: Configuration,
     changes: Vec<Change>,
     pub ambiguous: usize,
@@ -144,6 +139,7 @@ impl<'p> PendingTransition<'p> {
             segment: at.segment,
             t: at.t,
             lookahead,
+            came: at.configuration.clone(),
             now: at.configuration.clone(),
             changes: Vec::with_capacity(1),
             ambiguous: 0,
@@ -162,7 +158,19 @@ impl<'p> PendingTransition<'p> {
         PendingTransition { stop: Some(stop), ..self }.transition()
     }
 
-    fn transition(self) -> SlidingTransition {
+    fn transition(mut self) -> SlidingTransition {
+        let is_changed = |interface: &usize| self.came.joints[*interface] != self.now.joints[*interface];
+        let changed: Vec<usize> = (0..self.now.joints.len()).filter(is_changed).collect();
+        match self.changes.first_mut() {
+            // What has ended before the first event, in the same instant, belongs to it.
+            Some(first) if first.before.joints != self.came.joints => first.before.clone_from(&self.came),
+            // Low hops and slides have ended without impulses.
+            None if !changed.is_empty() => {
+                let came = self.came.clone();
+                self.change(EventKind::Stick, changed, &came, None);
+            }
+            _ => {}
+        }
         let PendingTransition { now, changes, ambiguous, is_jammed, without_restitution, stop, .. } = self;
         SlidingTransition { after: now, changes, ambiguous, is_jammed, without_restitution, stop }
     }
@@ -262,16 +270,18 @@ impl<'p> PendingTransition<'p> {
         Ok(self.search(&self.touching()).joints_an_instant_later(&solution))
     }
 
-    /// Admissible states other than those before a guard's zero. With less kinetic than static friction, slides are admissible that need not begin: if the
-    /// state that the guard names begins none and is admissible at the zero, it holds.
+    /// Admissible states other than those before a guard's zero. With less kinetic than static friction, slides are admissible that need not begin: where
+    /// others than the guard names would begin, and its own state is admissible at the zero by itself, that holds.
     fn other_than(&self, before: &Configuration, touch: &[Touch], hint: Option<(usize, Joint)>) -> Option<Solution> {
         let search = self.search(touch);
         let other = search.solve_otherwise(&before.joints)?;
-        let slides = |(now, before): (&Joint, &Joint)| !now.sticks() && now.slip().is_some() && before.sticks();
-        let begins = other.joints.iter().zip(&before.joints).any(slides);
-        let begins_none =
-            |(interface, joint): &(usize, Joint)| joint.sticks() || joint.slip() == before.joints[*interface].slip();
-        let named = hint.filter(|named| begins && begins_none(named));
+        let begins = |interface: usize| {
+            let (now, before) = (other.joints[interface], before.joints[interface]);
+            !now.sticks() && now.slip().is_some() && before.sticks()
+        };
+        let is_named = |interface: usize| hint == Some((interface, other.joints[interface]));
+        let begins_unnamed = (0..other.joints.len()).any(|interface| begins(interface) && !is_named(interface));
+        let named = hint.filter(|_| begins_unnamed);
         let released = named.and_then(|(interface, joint)| search.released(&before.joints, interface, joint));
         Some(released.unwrap_or(other))
     }

@@ -249,8 +249,13 @@ impl<O: Output> Step<'_, '_, O> {
         let [near, end] = self.leaving(value, limit, clear);
         let one = value(self, near);
         if one <= clear {
-            // It comes back before that can be resolved (`end < limit`), or does not leave zero upwards at once.
-            return if end < limit { Some(0.0) } else { self.falls_from_zero(value, noise, clear, limit) };
+            return match end < limit {
+                // It comes back before that can be resolved: a gap where the parabola of its rate does, which has the place below.
+                true if is_gap => Some(rate * end / (rate - value(self, end) / end)),
+                true => Some(0.0),
+                // It does not leave zero upwards at once.
+                false => self.falls_from_zero(value, noise, clear, limit),
+            };
         }
         let two = value(self, (2.0 * near).min(end));
         let order = libm::log2((two / one).abs()).round();
