@@ -2,6 +2,7 @@
 
 use rocking::scene_file::{Setting, Template};
 use rocking::sweep::{Ask, Axis, Combine, Sweep};
+use rocking::trust::Degree;
 use std::path::Path;
 
 fn sweep(combine: Combine, axes: &[(&str, &[f64])]) -> Sweep {
@@ -101,10 +102,10 @@ fn the_smallest_normal_force_is_a_share_of_the_weight_above_its_own_interface() 
 fn a_verdict_that_is_not_determined_has_no_demand() {
     let sweep = sweep(Combine::Cartesian, &[("excitation.horizontal.amplitude_uplift", &[2.0])]);
     let mut outcome = sweep.row(0).result.expect("a run");
-    for (determined, demand) in
-        [(None, Some(outcome.peaks[0])), (Some(true), Some(outcome.peaks[0])), (Some(false), None)]
-    {
-        outcome.determined = determined;
-        assert_eq!(outcome.demand(), demand, "{determined:?}");
+    let peak = Some(outcome.peaks[0]);
+    let expected = [(Degree::Determined, peak), (Degree::Likely, peak), (Degree::NotDetermined, None)];
+    for (trust, demand) in expected.map(|(trust, demand)| (Some(trust), demand)).into_iter().chain([(None, peak)]) {
+        outcome.trust = trust;
+        assert_eq!(outcome.demand(), demand, "{trust:?}");
     }
 }

@@ -13,7 +13,7 @@ use crate::files::{LARGEST_TABLE, check};
 use column::{OUTCOME, Rows, TRUST};
 use csv::StringRecord;
 use rocking::Fate;
-use rocking::sweep::NOT_DETERMINED;
+use rocking::trust::Degree;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
@@ -69,6 +69,11 @@ impl Format {
 /// Opens a table of either format.
 pub fn open(path: &Path) -> std::io::Result<Rows> {
     check(path, LARGEST_TABLE)?;
+    if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
+        let problem =
+            "this is the file of a scene, a sweep or a study, and no table; run it, and give the table that it writes";
+        return Err(std::io::Error::new(std::io::ErrorKind::InvalidInput, problem));
+    }
     match Format::of(path).map_err(std::io::Error::other)? {
         Format::Csv => {
             check_first_line(path)?;
@@ -92,7 +97,8 @@ pub fn decided(path: &Path) -> std::io::Result<(StringRecord, impl Iterator<Item
     let [outcome, trust] = [OUTCOME, TRUST].map(|name| header.iter().position(|own| own == name));
     let decided = move |row: StringRecord| {
         let cell = |column: Option<usize>| column.and_then(|column| row.get(column)).unwrap_or_default();
-        let fate = Fate::parse(cell(outcome)).filter(|fate| fate.is_decided() && cell(trust) != NOT_DETERMINED);
+        let fate =
+            Fate::parse(cell(outcome)).filter(|fate| fate.is_decided() && cell(trust) != Degree::NotDetermined.name());
         (fate, row)
     };
     Ok((header, rows.map(move |row| row.map(decided))))

@@ -71,7 +71,7 @@ fn a_sweep_has_a_column_of_trust_on_request() {
     let sweep = "scene = \"chaotic.toml\"\nask = \"trust\"\n\n[axes]\namplitude = [0.01, 0.37]\n";
     folder.write("sweep.toml", sweep);
     let told = folder.succeeds("sweep sweep.toml --out table.csv");
-    assert!(told.contains("the outcome of 1 run(s) is not determined (column trust)"), "{told}");
+    assert!(told.contains("no uplift 1, rocks 0, overturns 0, not determined (column trust) 1, errors 0"), "{told}");
     let table = folder.table("table.csv");
     assert_eq!(table.texts("trust"), ["determined", "not-determined"], "{table:?}");
     assert_eq!(table.texts("outcome"), ["no-uplift", "rocks"], "{table:?}");
@@ -95,7 +95,7 @@ fn a_sweep_has_a_column_of_trust_on_request() {
 #[test]
 fn a_study_counts_runs_that_are_not_determined_as_undecided() {
     let folder = Folder::with("chaotic.toml", CHAOTIC);
-    let study = "scene = \"chaotic.toml\"\nmeasure = \"pga_uplift\"\nlevels = [0.5, 2.5, 3.5]\n\n[records.synthetic]\nseeds = { from = 1, to = 4 }\n\
+    let study = "scene = \"chaotic.toml\"\nmeasure = \"pga_uplift\"\nlevels = [0.5, 1.2, 1.5]\n\n[records.synthetic]\nseeds = { from = 1, to = 4 }\n\
                  duration = 30.0\nfrequency = 2.0\n\n[fragility]\nreplicates = 0\n";
     folder.write("study.toml", study);
     folder.write("alone.toml", format!("trust = false\n{study}"));
@@ -103,7 +103,12 @@ fn a_study_counts_runs_that_are_not_determined_as_undecided() {
     let table = folder.table("ida.csv");
     let found = table.texts("outcome");
     let open = found.iter().filter(|outcome| **outcome == "not-determined").count();
-    assert!(open > 0 && open < found.len(), "{found:?}");
+    let trust = table.texts("trust");
+    let likely = trust.iter().filter(|degree| **degree == "likely").count();
+    assert!(open > 0 && likely > 0 && open + likely < found.len(), "{found:?} {trust:?}");
+    let agree = |(outcome, degree): (&&str, &&str)| (*outcome == "not-determined") == (*degree == "not-determined");
+    assert!(found.iter().zip(&trust).all(agree), "{found:?} {trust:?}");
+    assert_has(&told, &[&format!("\nlikely: {likely} run(s), counted with their own outcome")]);
     assert!(told.contains(&format!("not determined {open}")), "{told}");
     assert_has(&told, &["\nnot determined: companions end otherwise, or part", "undecided run(s) are left out"]);
     let figure = folder.read("ida.svg");
@@ -111,9 +116,10 @@ fn a_study_counts_runs_that_are_not_determined_as_undecided() {
     let counted: f64 = folder.table("ida-stripes.csv").numbers("not_determined").iter().sum();
     assert_eq!(counted, open as f64);
 
-    // Runs that are determined are those of the study without companions.
+    // Runs that are determined or likely are those of the study without companions.
     folder.succeeds("ida alone.toml --out alone.csv");
     let alone = folder.table("alone.csv");
+    assert!(!folder.read("alone.csv").contains("trust"));
     let alone = alone.texts("outcome");
     assert!(alone.iter().all(|outcome| *outcome != "not-determined"));
     assert!(found.iter().zip(&alone).all(|(own, other)| own == other || *own == "not-determined"));
@@ -176,9 +182,9 @@ fn slides_that_equal_friction_decides_are_not_known() {
     assert_has(&folder.succeeds("run s.toml"), &["; slides are known up to t = 6."]);
 }
 
-/// Slides that are not known are left out of a study, where no drum overturns.
+/// Slides that companions do not share are those of the run itself, one draw: left out, only runs without slides and lost columns would count.
 #[test]
-fn a_study_leaves_out_slides_that_are_not_known() {
+fn a_study_counts_slides_that_companions_do_not_share() {
     let drums = "[friction]\nstatic = 0.4\nkinetic = 0.3\n[column]\nblocks = 4\nhalf_width = 0.5\nhalf_height = 0.8\n";
     let folder = Folder::with("s.toml", drums);
     let study = "scene = \"s.toml\"\nmeasure = \"pgv\"\nlevels = [0.2, 1.0]\n[records.synthetic]\nseeds = [1, 2]\nduration = 12.0\n\
@@ -187,11 +193,14 @@ fn a_study_leaves_out_slides_that_are_not_known() {
     folder.succeeds("ida study.toml --out ida.csv");
     let table = folder.table("ida.csv");
     assert_eq!(table.texts("outcome"), ["no-uplift", "slides", "no-uplift", "slides"]);
-    assert_eq!(
-        table.texts("residual_slide_1").iter().map(|slide| slide.is_empty()).collect::<Vec<_>>(),
-        [false, true, false, true]
-    );
-    assert_eq!(folder.table("ida-fragility.csv").numbers("undecided"), [0.0, 2.0]);
+    assert_eq!(table.texts("trust"), ["determined"; 4]);
+    let slides = table.numbers("residual_slide_1");
+    assert!(slides[0] == 0.0 && slides[2] == 0.0 && slides[1] != 0.0 && slides[3] != 0.0, "{slides:?}");
+    assert_eq!(folder.table("ida-fragility.csv").numbers("undecided"), [0.0, 0.0]);
+    // They are those of the run alone.
+    folder.write("study.toml", format!("trust = false\n{study}"));
+    folder.succeeds("ida study.toml --out alone.csv");
+    assert_eq!(folder.table("alone.csv").numbers("residual_slide_1"), slides);
 }
 
 /// One block under a pulse just below that which overturns it; the run ends 0.8 s after the pulse.

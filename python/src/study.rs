@@ -18,6 +18,7 @@ use rocking::studies::{
     self, Cells, Fragility, FragilityOptions, IdaFile, IdaOutcome, Layout, LimitState, Observation, RunError,
 };
 use rocking::sweep::ERROR;
+use rocking::trust::Degree;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -190,6 +191,11 @@ impl Ida {
         columns.extend(per_block("peak", blocks, &results, |found| &found.peaks));
         if self.ida.scene().friction.is_some() {
             columns.extend(per_block("residual_slide", blocks, &results, |found| &found.residual_slides));
+        }
+        if self.ida.is_followed() {
+            let degrees = Names::of(Degree::NAMES);
+            let degree = |found: Option<&IdaOutcome>| found.and_then(|found| found.trust).map_or("", Degree::name);
+            columns.push(Column::new("trust", degrees.column(found().map(degree))));
         }
         let errors = results.iter().map(|result| result.as_ref().err().map(ToString::to_string));
         columns.push(Column::new("error", Values::Text(errors.collect())));

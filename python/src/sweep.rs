@@ -9,7 +9,8 @@ use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 use rocking::scene_file::{Setting, Template};
-use rocking::sweep::{Axis, Cell, CellKind, DETERMINED, ERROR, Field, NOT_DETERMINED, Outcome, PointError};
+use rocking::sweep::{Axis, Cell, CellKind, ERROR, Field, Outcome, PointError};
+use rocking::trust::Degree;
 use rocking::{Fate, Wanted};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -129,7 +130,7 @@ impl Sweep {
                 }
                 (_, CellKind::Word) => {
                     let words = match field {
-                        Field::Trust => vec![DETERMINED, NOT_DETERMINED],
+                        Field::Trust => Degree::NAMES.to_vec(),
                         _ => Fate::NAMES.into_iter().chain([ERROR]).collect(),
                     };
                     Names::of(words).column(cells().map(|cell| if let Cell::Word(word) = cell { word } else { "" }))

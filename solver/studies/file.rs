@@ -151,6 +151,11 @@ fn records(reader: &Reader, root: &mut Table, column: &Column) -> Result<Vec<Stu
             if let Some(key) = ["component", "vertical"].into_iter().find(|key| table.has(key)) {
                 return Err(table.wrong(key, "it is of a `folder`, and none is given".into(), "remove it").into());
             }
+            if let Some(key) = OF_FILES.into_iter().find(|key| table.has(key) && !table.has("files")) {
+                let problem = "it is of `files` or a `folder`, and neither is given".into();
+                let remedy = "remove it, or put `dt` below [records.synthetic]";
+                return Err(table.wrong(key, problem, remedy).into());
+            }
         }
     }
     if let Some(mut inner) = table.table("synthetic")? {
@@ -169,6 +174,9 @@ fn records(reader: &Reader, root: &mut Table, column: &Column) -> Result<Vec<Stu
     }
     Ok(found)
 }
+
+/// Keys of `[records]` that say how files are read.
+const OF_FILES: [&str; 6] = ["units", "dt", "lenient", "channel", "column", "skip_rows"];
 
 /// Largest number of samples of all synthetic records, which a study keeps: 0.8 GB.
 const MOST_SAMPLES: f64 = 1e8;
@@ -305,6 +313,13 @@ fn fragility(root: &mut Table, scene: &Scene) -> Result<(Vec<LimitState>, Fragil
         Some(texts) => {
             let states = texts.iter().map(|text| state(&table, &text.to_string(), scene));
             let states: Vec<LimitState> = states.collect::<Result<_, _>>()?;
+            if states.is_empty() {
+                return Err(table.wrong(
+                    "states",
+                    "the list is empty".into(),
+                    "name a limit state, or leave the key out",
+                ));
+            }
             let is_repeated = |(place, state): &(usize, &LimitState)| states[..*place].contains(state);
             if let Some((_, state)) = states.iter().enumerate().find(is_repeated) {
                 return Err(table.wrong("states", format!("`{state}` is there twice"), "give each state once"));

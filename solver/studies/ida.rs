@@ -12,7 +12,7 @@ use crate::response::Fate;
 use crate::response::{EventKind, Response};
 use crate::run::{Simulator, SolveError};
 use crate::scene::{Scene, SceneErrors, Wanted};
-use crate::trust::{TrustOptions, follow_run_observed};
+use crate::trust::{Degree, TrustOptions, follow_run_observed};
 use rayon::prelude::*;
 use rocking_codegen::pattern::Pattern;
 use rocking_ground::{Excitation, Motion, Record, RecordError};
@@ -110,11 +110,13 @@ pub struct IdaOutcome {
     pub largest_gap: f64,
     /// Largest `|θ|` of each block, over the slenderness of the stack from this block up, dimensionless.
     pub peaks: Vec<f64>,
-    /// Slide of each interface at the end `[m]`; empty without friction.
+    /// Slide of each interface at the end `[m]`; empty without friction, and with a horizon. Companions may slide otherwise.
     pub residual_slides: Vec<f64>,
-    /// Time up to which the angles are known `[s]`, in a run whose companions do not determine its verdict ([`crate::trust`]); otherwise `None`.
+    /// Time up to which the angles are known `[s]`, in a run whose verdict is neither determined nor likely ([`crate::trust`]); otherwise `None`.
     /// Impacts, first uplift, peaks, and the gap that follows from angles are those up to this time.
     pub horizon: Option<f64>,
+    /// How far the verdict is determined; `None` without companions ([`Ida::followed`]).
+    pub trust: Option<Degree>,
 }
 
 /// A run of a study.
@@ -215,7 +217,7 @@ impl Ida {
     }
 
     /// The study with or without companion runs, which show whether the verdict of each run is determined ([`crate::trust`]). The default is with
-    /// companions, which take 7 to 30 times as long as the runs themselves on one thread.
+    /// companions, which take 7 to 30 times as long as the runs themselves on one thread, up to 70 times where nine are too few.
     #[must_use]
     pub fn followed(self, is_followed: bool) -> Ida {
         Ida { is_followed, ..self }
@@ -385,11 +387,10 @@ impl Ida {
             if self.is_followed {
                 let trust = follow_run_observed(&scene, &response, TrustOptions::VERDICT, progress)?;
                 // A run that ended because no motion follows from the laws of contact stays undetermined, whatever its companions do.
-                if !trust.determined && found.fate != Fate::Undetermined {
+                if trust.degree() == Degree::NotDetermined && found.fate != Fate::Undetermined {
                     found = open(&scene, response, trust.known_until());
-                } else if trust.slide_horizon.is_some() {
-                    found.residual_slides.clear();
                 }
+                found.trust = Some(trust.degree());
             }
             Ok(found)
         };
@@ -426,6 +427,7 @@ fn outcome(scene: &Scene, response: &Response) -> IdaOutcome {
         peaks: response.peaks(column),
         residual_slides: slides.unwrap_or_default(),
         horizon: None,
+        trust: None,
     }
 }
 

@@ -1,7 +1,8 @@
 //! What a study observes of a run, and the limit states that an observation reaches or not.
 
 use crate::response::Fate;
-use crate::sweep::{DETERMINED, ERROR, NOT_DETERMINED, is_of_records};
+use crate::sweep::{ERROR, is_of_records};
+use crate::trust::Degree;
 use std::fmt;
 use std::str::FromStr;
 
@@ -29,7 +30,7 @@ impl Observation {
         self.fate.is_some_and(Fate::is_lost)
     }
 
-    /// Whether the run has an answer: it did not fail, a motion followed from the laws of contact to its end, and its verdict is determined.
+    /// Whether the run has an answer: it did not fail, a motion followed from the laws of contact to its end, and its verdict is determined or likely.
     pub fn is_decided(&self) -> bool {
         self.fate.is_some_and(Fate::is_decided)
     }
@@ -53,7 +54,7 @@ pub struct Cells<'t> {
     pub level: f64,
     /// The column `outcome`; `None` and `error` stand for a run that failed.
     pub outcome: Option<&'t str>,
-    /// The column `trust`: determined, not-determined, or blank for a run that failed; `None` in a table without it.
+    /// The column `trust`: determined, likely, not-determined, or blank for a run that failed; `None` in a table without it.
     pub trust: Option<&'t str>,
     /// Whether the column `first_uplift` is filled; `None` in a table without it.
     pub has_uplift: Option<bool>,
@@ -88,7 +89,7 @@ pub enum WrongCell {
         peak: f64,
     },
     /// Nothing about the trust in a run.
-    #[error("column `trust`: `{found}` is neither determined nor not-determined")]
+    #[error("column `trust`: `{found}` is none of {}", Degree::NAMES.join(", "))]
     Trust {
         /// The word.
         found: String,
@@ -110,18 +111,19 @@ impl TryFrom<Cells<'_>> for Observation {
             None | Some(ERROR) => None,
             Some(name) => Some(Fate::parse(name).ok_or_else(|| WrongCell::Outcome { found: name.into() })?),
         };
-        let is_open = match trust {
-            None | Some("" | DETERMINED) => false,
-            Some(NOT_DETERMINED) => true,
-            Some(other) => return Err(WrongCell::Trust { found: other.into() }),
+        let degree = match trust {
+            None | Some("") => None,
+            Some(name) => Some(Degree::parse(name).ok_or_else(|| WrongCell::Trust { found: name.into() })?),
         };
+        // A study says so in the column of outcomes; its peaks are those of the time in which the run is known.
+        let is_open = degree == Some(Degree::NotDetermined) && fate != Some(Fate::NotDetermined);
         let rocks = matches!(fate, Some(Fate::Rocks | Fate::Overturns | Fate::NotDetermined));
         Ok(Observation {
             record,
             level,
             fate: if is_open { Some(Fate::NotDetermined) } else { fate },
             has_uplift: has_uplift.unwrap_or(rocks || is_open),
-            // Peaks of a run that is not determined mean nothing: its companions have other peaks.
+            // Peaks of a whole run that is not determined mean nothing: its companions have other peaks.
             peaks: if is_open { Vec::new() } else { peaks },
             residual_slides,
         })

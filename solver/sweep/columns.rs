@@ -38,7 +38,7 @@ pub enum Field {
     MinNormal,
     /// Number of separations.
     Separations,
-    /// Whether the verdict is determined.
+    /// How far the verdict is determined.
     Trust,
     /// Whether `t_end` cuts the run.
     Truncated,
@@ -48,12 +48,6 @@ pub enum Field {
 
 /// The word of the column `outcome` for a point without a result.
 pub const ERROR: &str = "error";
-
-/// The word of the column `trust` for a verdict that is determined.
-pub const DETERMINED: &str = "determined";
-
-/// The word of the column `trust` for a verdict that is not determined.
-pub const NOT_DETERMINED: &str = "not-determined";
 
 /// What the cells of a column hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -131,10 +125,7 @@ impl Field {
             Field::MuDemandAtImpacts => number(needs.map(|needs| needs.mu_demand_at_impacts)),
             Field::MinNormal => number(needs.map(|needs| needs.min_normal)),
             Field::Separations => whole(needs.map(|needs| needs.separations)),
-            Field::Trust => {
-                let word = |determined| Cell::Word(if determined { DETERMINED } else { NOT_DETERMINED });
-                found.determined.map_or(Cell::Blank, word)
-            }
+            Field::Trust => found.trust.map_or(Cell::Blank, |trust| Cell::Word(trust.name())),
             Field::Truncated => Cell::Truth(found.truncated),
         }
     }

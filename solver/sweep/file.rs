@@ -8,7 +8,7 @@ use crate::scene_file::reader::Reader;
 use crate::scene_file::stations::{files_in, records_of};
 use crate::scene_file::table::{Cause, Place, Table, Wrong};
 use crate::scene_file::{FileKind, SceneFileError, Setting, Template, text};
-use rocking_ground::{Direction, record_and_component};
+use rocking_ground::{Direction, by_number, record_and_component};
 use std::collections::HashSet;
 use std::path::Path;
 
@@ -402,11 +402,12 @@ fn no_folder(table: &Table, path: &Path, error: &std::io::Error) -> Wrong {
     table.wrong("folder", format!("{}: {error}", path.display()), "give the folder relative to the base scene")
 }
 
-/// The files of a folder beside the base scene ([`files_in`]), as values of a key.
+/// The files of a folder beside the base scene ([`files_in`]), as values of a key, in the order of the numbers in their names.
 fn files(table: &mut Table, key: &str, template: &Template) -> Result<Vec<Setting>, Wrong> {
     let Some(name) = table.text("folder")? else { return Ok(Vec::new()) };
     let path = template.beside(&name);
-    let files = files_in(&path).map_err(|error| no_folder(table, &path, &error))?;
+    let mut files = files_in(&path).map_err(|error| no_folder(table, &path, &error))?;
+    files.sort_by_cached_key(|file| by_number(file));
     let (other, other_name) = match key.contains("vertical") {
         true => (Direction::Horizontal, "horizontal"),
         false => (Direction::Vertical, "vertical"),

@@ -13,7 +13,7 @@ use crate::run::{Simulator, SolveError};
 use crate::scene::{Scene, Wanted};
 use crate::scene_file::excitation::FILE_THAT_NAMES;
 use crate::scene_file::{SceneFileError, Setting, Template, VariedExcitation};
-use crate::trust::{TrustOptions, follow_run_observed};
+use crate::trust::{Degree, TrustOptions, follow_run_observed};
 use crate::validity::{ContactNeeds, Validity};
 use rayon::prelude::*;
 use rocking_ground::Excitation;
@@ -82,8 +82,8 @@ pub enum Ask {
     Slides,
     /// As [`Ask::Peaks`], and what contacts need; of scenes without friction.
     Validity,
-    /// As [`Ask::Peaks`], and whether the verdict is determined, which nine companions of each run show ([`crate::trust`]).
-    /// On one thread it takes 7 to 30 times as long.
+    /// As [`Ask::Peaks`], and whether the verdict is determined or likely, which companions of each run show ([`crate::trust`]).
+    /// On one thread it takes 7 to 30 times as long, up to 70 times where nine companions are too few.
     Trust,
 }
 
@@ -132,8 +132,8 @@ pub struct Outcome {
     pub residual_slides: Vec<f64>,
     /// What contacts need, up to the point of no return; only if that is asked for, and nothing slid.
     pub needs: Option<Needs>,
-    /// Whether the verdict is determined; only if that is asked for.
-    pub determined: Option<bool>,
+    /// How far the verdict is determined; only if that is asked for.
+    pub trust: Option<Degree>,
 }
 
 impl Outcome {
@@ -150,7 +150,7 @@ impl Outcome {
     /// Largest `|θ|/α` of all blocks; infinite for a lost column. `None` if peaks are not asked for, if no motion follows from the laws of
     /// contact, or if the verdict is not determined.
     pub fn demand(&self) -> Option<f64> {
-        let is_open = !self.fate.is_decided() || self.determined == Some(false);
+        let is_open = !self.fate.is_decided() || self.trust == Some(Degree::NotDetermined);
         let largest = self.peaks.iter().copied().reduce(f64::max).filter(|_| !is_open)?;
         Some(if self.fate.is_lost() { f64::INFINITY } else { largest })
     }
@@ -314,7 +314,7 @@ impl<'s> Worker<'s> {
         let mut outcome = self.sweep.outcome(scene, &response);
         if self.sweep.ask == Ask::Trust {
             let trust = follow_run_observed(scene, &response, TrustOptions::VERDICT, progress)?;
-            outcome.determined = Some(trust.determined);
+            outcome.trust = Some(trust.degree());
         }
         Ok(outcome)
     }
@@ -500,7 +500,7 @@ impl Sweep {
                 Some(report) if self.ask == Ask::Slides => report.residual_slide.clone(),
                 _ => Vec::new(),
             },
-            determined: None,
+            trust: None,
         }
     }
 }

@@ -38,7 +38,8 @@ pub struct Turn {
 }
 
 impl Fold {
-    /// Searches for the smallest change tried that changes the verdict; `None` for a scene without ground motion. `run` runs a scene.
+    /// Searches for the smallest change tried that changes the verdict; `None` for a scene without ground motion, or if no run with a change has an answer.
+    /// `run` runs a scene.
     ///
     /// # Errors
     /// [`SolveError::Cancelled`]
@@ -60,30 +61,30 @@ impl Fold {
             if let Some(cancelled) = cancellation(&run) {
                 return Err(cancelled);
             }
-            let verdict_there = run.ok().map(|run| Verdict::of(&run)).filter(|there| *there != verdict);
-            Ok(verdict_there.map(|verdict| Turn { change, verdict }))
+            Ok(run.ok().map(|run| Turn { change, verdict: Verdict::of(&run) }))
         };
         let mut tried = Vec::new();
         for size in sizes {
-            tried.push(*size);
             let both: Result<Vec<Option<Turn>>, SolveError> = [*size, -size].into_par_iter().map(turn).collect();
-            let turns: Vec<Turn> = both?.into_iter().flatten().collect();
+            let both = both?;
+            let turns: Vec<Turn> = both.iter().flatten().filter(|turn| turn.verdict != verdict).copied().collect();
+            // A run that cannot be made, or fails, says nothing of its size.
+            if !turns.is_empty() || both.iter().all(Option::is_some) {
+                tried.push(*size);
+            }
             if !turns.is_empty() {
                 return Ok(Some(Fold { tried, turns }));
             }
         }
-        Ok(Some(Fold { tried, turns: Vec::new() }))
+        Ok(Some(Fold { tried, turns: Vec::new() }).filter(|fold| !fold.tried.is_empty()))
     }
 
     /// In words: `overturns with 0.5 % more shaking`.
     pub fn sentence(&self) -> String {
-        let largest = self.tried.last().copied().unwrap_or(0.0);
-        if self.turns.is_empty() {
-            return format!(
-                "the same in {} runs with up to {} % more or less shaking",
-                2 * self.tried.len(),
-                100.0 * largest
-            );
+        if let ([], [smaller @ .., largest]) = (&self.turns[..], &self.tried[..]) {
+            let smaller: Vec<String> = smaller.iter().map(|size| format!("{}", 100.0 * size)).collect();
+            let and = if smaller.is_empty() { "" } else { " and " };
+            return format!("the same with {}{and}{} % more or less shaking", smaller.join(", "), 100.0 * largest);
         }
         if let [one, other] = &self.turns[..]
             && one.verdict == other.verdict
@@ -116,6 +117,14 @@ mod tests {
             turns([Verdict::Overturns, Verdict::Collapses]),
             "overturns with 10 % more, collapses with 10 % less shaking"
         );
+    }
+
+    #[test]
+    fn a_verdict_that_nothing_changes_names_what_was_tried() {
+        let sentence = |tried: &[f64]| Fold { tried: tried.to_vec(), turns: Vec::new() }.sentence();
+        assert_eq!(sentence(&TRIED_WITH_SLIDING), "the same with 0.1, 1 and 10 % more or less shaking");
+        assert_eq!(sentence(&TRIED), "the same with 0.01, 0.1, 0.2, 0.5, 1, 2, 5 and 10 % more or less shaking");
+        assert_eq!(sentence(&[0.1]), "the same with 10 % more or less shaking");
     }
 
     /// Newmark's block, whose runs with changed motion cost more than those of rocking ones.

@@ -38,6 +38,7 @@ pub use history::AGREEMENT;
 pub use verdict::Verdict;
 
 use crate::column::Column;
+use crate::names::named;
 use crate::response::{Response, StopReason};
 use crate::run::{Simulator, SolveError};
 use crate::scene::{Scene, Wanted};
@@ -110,6 +111,20 @@ pub struct Trust {
     pub band: Band,
 }
 
+/// How far the verdict of a run is determined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Degree {
+    /// [`Trust::determined`].
+    Determined,
+    /// [`Trust::likely`].
+    Likely,
+    /// Neither.
+    NotDetermined,
+}
+
+named!(Degree: Determined = "determined", Likely = "likely", NotDetermined = "not-determined");
+
 /// What is computed besides the trust in the verdict. Start from `TrustOptions::default()` and set fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -123,8 +138,8 @@ pub struct TrustOptions {
 }
 
 impl TrustOptions {
-    /// Nothing else: only the trust in the verdict, as sweeps and studies need it for each of many runs.
-    pub const VERDICT: TrustOptions = TrustOptions { likely: false, fold: false, band: false };
+    /// Only the trust in the verdict, as sweeps and studies need it for each of many runs.
+    pub const VERDICT: TrustOptions = TrustOptions { likely: true, fold: false, band: false };
 }
 
 impl Default for TrustOptions {
@@ -176,8 +191,18 @@ pub fn follow_run_observed(
     asked: TrustOptions,
     progress: impl Fn(f64) -> ControlFlow<()> + Sync,
 ) -> Result<Trust, SolveError> {
+    run_companions(scene, response, asked, &progress)
+}
+
+/// [`follow_run_observed`], compiled once for all functions.
+fn run_companions(
+    scene: &Scene,
+    response: &Response,
+    asked: TrustOptions,
+    progress: &(dyn Fn(f64) -> ControlFlow<()> + Sync),
+) -> Result<Trust, SolveError> {
     let run = |scene: &Scene| {
-        let mut response = Simulator::new().run_observed(scene, &progress)?;
+        let mut response = Simulator::new().run_observed(scene, progress)?;
         // What is compared are rows and verdicts, and nine lists of events would fill the memory.
         response.events = Vec::new();
         Ok(response)
@@ -312,6 +337,15 @@ fn certain_at(
 }
 
 impl Trust {
+    /// How far the verdict is determined, in a word.
+    pub fn degree(&self) -> Degree {
+        match (self.determined, self.likely) {
+            (true, _) => Degree::Determined,
+            (false, true) => Degree::Likely,
+            (false, false) => Degree::NotDetermined,
+        }
+    }
+
     /// Whether companions show that the verdict is not determined. False for a run that ends undetermined: its outcome already says so.
     pub fn is_open(&self) -> bool {
         !self.determined && self.verdict != Verdict::Undetermined

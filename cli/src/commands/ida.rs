@@ -6,12 +6,12 @@ use crate::arguments;
 use crate::commands::fragility::{self, Conclusions};
 use crate::commands::plot::write;
 use crate::commands::spectrum::beside;
-use crate::commands::sweep::{OUTCOME, TIME, TableDigest, Tally, already_there, threads};
+use crate::commands::sweep::{OUTCOME, TIME, TableDigest, Tally, already_there, likely_in_words, threads};
 use crate::error::{Failure, at};
 use crate::output;
 use crate::plot::{self, Figure, Paper};
 use crate::progress::Progress;
-use crate::table::column::{Column, Kind, Rows, fits, has_result};
+use crate::table::column::{Column, Kind, Rows, TRUST, fits, has_result};
 use crate::table::growing::Growing;
 use crate::table::{Format, open};
 use crate::terminal::{json, print, warn_of_some};
@@ -67,7 +67,7 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     output::csv(&stripes_file, |table| write_stripes(table, ida, &stripes))?;
     let measure = ida.intensity().to_string();
     let conclusions = threads.install(|| Conclusions::of(&runs, &measure, states, options));
-    let mut report = tally(ida, &stripes);
+    let mut report = tally(ida, &stripes) + &likely_in_words(counted.likely);
     report.push_str(&conclusions.text());
     let _ = writeln!(report, "wrote {} row(s){} to {}", ida.len(), already_there(resumed), shown(out));
     let _ = writeln!(report, "wrote {}", shown(&stripes_file));
@@ -212,6 +212,9 @@ fn columns(ida: &Ida) -> Vec<Column> {
     if ida.scene().friction.is_some() {
         columns.extend(blocks.map(|block| Column::sparse(format!("residual_slide_{block}"), Kind::Number)));
     }
+    if ida.is_followed() {
+        columns.push(Column::sparse(TRUST, Kind::Text));
+    }
     columns.push(Column::sparse("error", Kind::Text));
     columns
 }
@@ -243,6 +246,9 @@ fn cells(ida: &Ida, run: &IdaRun, columns: usize) -> StringRecord {
             cells.push(number(found.largest_gap));
             cells.extend(found.peaks.iter().chain(&found.residual_slides).copied().map(number));
             cells.resize(columns, String::new());
+            if let Some(trust) = found.trust {
+                cells[columns - 2] = trust.name().into();
+            }
         }
         Err(error) => {
             cells.push(ERROR.into());

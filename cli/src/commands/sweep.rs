@@ -20,7 +20,8 @@ use rocking::Fate;
 use rocking::ground::read_file;
 use rocking::run_folder::Digest;
 use rocking::scene_file::Setting;
-use rocking::sweep::{Ask, Cell, CellKind, Field, NOT_DETERMINED, Row, Sweep};
+use rocking::sweep::{Ask, Cell, CellKind, Field, Row, Sweep};
+use rocking::trust::Degree;
 use serde::Serialize;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -304,8 +305,10 @@ pub struct Tally {
     pub errors: usize,
     /// Rows of truncated runs: the blocks stand at `t_end`, and the ground moves on, they may overturn, or they slide on. They are also counted by outcome.
     truncated: usize,
-    /// Rows whose outcome is not determined, in sweeps that ask for trust, where they are also counted by outcome, and in studies.
+    /// Rows whose verdict is not determined, in sweeps that ask for trust and in studies. They are counted here alone.
     not_determined: usize,
+    /// Rows whose verdict is likely. They are also counted by outcome.
+    pub likely: usize,
 }
 
 impl Tally {
@@ -319,8 +322,10 @@ impl Tally {
         for row in reader.records() {
             let row = row?;
             tally.truncated += usize::from(truncated.and_then(|place| row.get(place)) == Some("true"));
-            tally.not_determined += usize::from(trust.and_then(|place| row.get(place)) == Some(NOT_DETERMINED));
+            let degree = trust.and_then(|place| Degree::parse(row.get(place)?));
+            tally.likely += usize::from(degree == Some(Degree::Likely));
             *match outcome.and_then(|outcome| row.get(outcome)).unwrap_or_default() {
+                _ if degree == Some(Degree::NotDetermined) => &mut tally.not_determined,
                 name if name == Fate::NoUplift.name() => &mut tally.no_uplift,
                 name if name == Fate::Rocks.name() => &mut tally.rocks,
                 name if name == Fate::Overturns.name() => &mut tally.overturns,
@@ -338,21 +343,32 @@ impl Tally {
     }
 }
 
+/// A line about runs whose verdict is likely; empty if there are none.
+pub fn likely_in_words(runs: usize) -> String {
+    match runs {
+        0 => String::new(),
+        _ => format!(
+            "likely: {runs} run(s), counted with their own outcome: nine companions do not determine it, and 24 more have it as well \
+             (column {TRUST}; the book, trust)\n"
+        ),
+    }
+}
+
 impl std::fmt::Display for Tally {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Tally { no_uplift, rocks, overturns, errors, .. } = self;
         write!(f, "no uplift {no_uplift}, rocks {rocks}, overturns {overturns}")?;
-        for (name, count) in
-            [("slides", self.slides), ("collapses", self.collapses), ("undetermined", self.undetermined)]
-        {
-            if count > 0 {
-                write!(f, ", {name} {count}")?;
-            }
+        let others = [
+            ("slides", self.slides),
+            ("collapses", self.collapses),
+            ("undetermined", self.undetermined),
+            ("not determined (column trust)", self.not_determined),
+        ];
+        for (name, count) in others.iter().filter(|(_, count)| *count > 0) {
+            write!(f, ", {name} {count}")?;
         }
         writeln!(f, ", errors {errors}")?;
-        if self.not_determined > 0 {
-            writeln!(f, "the outcome of {} run(s) is not determined (column {TRUST})", self.not_determined)?;
-        }
+        f.write_str(&likely_in_words(self.likely))?;
         if self.truncated > 0 {
             writeln!(
                 f,

@@ -24,7 +24,7 @@ pub struct Study {
     /// time after each record
     #[schemars(range(min = 0), extend("x-unit" = "s", "x-default" = "10"))]
     pub free_swing: Option<f64>,
-    /// whether each run is followed by companions, and counts as undecided where its verdict is not determined
+    /// whether each run is followed by companions, and counts as undecided where its verdict is neither determined nor likely
     #[schemars(extend("x-default" = "true"))]
     pub trust: Option<bool>,
     /// files, a folder, synthetic records; they may be combined

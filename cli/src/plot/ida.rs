@@ -66,7 +66,7 @@ pub fn ida(label: &str, runs: &[Observation], stripes: &[Stripe], paper: &Paper)
     let levels = counted(stripes.len(), ["level", "levels"]);
     let fractiles = match fractile_lines {
         [] => format!(" ({LEAST_RECORDS} records or more have fractiles as well)"),
-        _ => " with its 16, 50 and 84 % fractiles per level".into(),
+        _ => format!(" with its 16, 50 and 84 % fractiles at levels with {LEAST_RECORDS} decided runs or more"),
     };
     let caption = format!(
         "{records} at {levels} of {label}: the largest |θ|/α of each run{fractiles}.{}",
@@ -89,8 +89,11 @@ fn curves(sheet: &mut Sheet, panel: &Panel, records: &Records, stripes: &[Stripe
         draw(sheet, panel, begins, &points, &RECORD);
     }
     for (place, stroke) in fractile_lines.iter().enumerate() {
-        let points = stripes.iter().map(|stripe| (stripe.fractiles.map(|values| values[place]), stripe.level));
-        draw(sheet, panel, begins, &points.collect::<Vec<_>>(), stroke);
+        // Of one run or two, all fractiles are the same few values.
+        let of_enough = |stripe: &&Stripe| stripe.runs - stripe.undecided() >= LEAST_RECORDS;
+        let known = |stripe: &Stripe| Some(stripe).filter(of_enough)?.fractiles.map(|values| values[place]);
+        let points: Vec<_> = stripes.iter().map(|stripe| (known(stripe), stripe.level)).collect();
+        draw(sheet, panel, begins, &points, stroke);
     }
 }
 

@@ -481,7 +481,7 @@ def records(
     column: str | int | None = None,
     skip_rows: int | None = None,
 ) -> Records:
-    """All record files of a folder, in the order of their names.
+    """All record files of a folder, in the order of their names and the numbers in them (``RSN6``, ``RSN77``, ``RSN125``).
 
     Parameters
     ----------

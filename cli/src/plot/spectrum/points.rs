@@ -7,7 +7,7 @@ use crate::table::column::{Rows, TRUST};
 use crate::table::open;
 use crate::text::printable;
 use csv::StringRecord;
-use rocking::sweep::NOT_DETERMINED;
+use rocking::trust::Degree;
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
@@ -114,7 +114,7 @@ impl Points {
             }
             let class = Class::of(&row[outcome], &row[impacts]);
             let class = class.ok_or_else(|| broken(format!("point {} has outcome `{}`", &row[0], &row[outcome])))?;
-            let is_open = trust.is_some_and(|trust| row.get(trust) == Some(NOT_DETERMINED));
+            let is_open = trust.is_some_and(|trust| row.get(trust) == Some(Degree::NotDetermined.name()));
             let class = if is_open && class.has_answer() { Class::NotDetermined } else { class };
             truncated += usize::from(
                 truncated_at.and_then(|at| row.get(at)).is_some_and(|cell| cell.eq_ignore_ascii_case("true")),
