@@ -90,7 +90,7 @@ impl<'a, Names: Style> Writer<'a, Names> {
         match self.arena.node(expr).clone() {
             // A value that is nothing but a reciprocal needs no `let` here: the caller binds or returns it.
             Node::Product(factors) if matches!(factors[..], [(_, -1)]) && !self.names.contains_key(&expr) => {
-                let divisor = self.tokens(factors[0].0, false);
+                let divisor = self.factor(factors[0].0);
                 let known = self.reciprocals.get(&factors[0].0);
                 known.map_or_else(|| quote! { #divisor.recip() }, |name| quote! { #name })
             }

@@ -51,8 +51,9 @@ fn describe(title: &str, program: &Program) -> TokenStream {
     if !program.constants.is_empty() {
         text.push_str("\n\nScene constants, in order:\n");
     }
-    let is_by_gravity = program.constants.iter().any(|constant| constant.name == "inverse_gravity");
     for constant in &program.constants {
+        // Moments and levers in SI units, and moments over J_1, have no unit of time.
+        let is_by_gravity = constant.unit.2 != 0;
         let meaning = meaning(&constant.name, is_by_gravity);
         text.push_str(&format!("\n- `{}` `[{}]`: {meaning}", constant.name, constant.unit));
     }

@@ -16,14 +16,14 @@ use std::fmt::Write;
 pub fn counts(pattern: &Pattern) -> String {
     let linkage = pattern.linkage();
     let plan = Plan::new(linkage.dof());
-    let derivation = derive_in_form(&linkage, Bodies::Rectangles, &plan);
+    let mut derivation = derive_in_form(&linkage, Bodies::Rectangles, &plan);
     let mut out = String::new();
     let mut row = |what: &str, operations: Operations| {
         let Operations { additions, multiplications, divisions } = operations;
         let _ =
             writeln!(out, "{what:<86} {:>6} {additions:>10} {multiplications:>16} {divisions:>10}", operations.flops());
     };
-    let [derived, condensed] = [as_derived(&derivation), condensed(&derivation)];
+    let [derived, condensed] = [as_derived(&derivation), condensed(&mut derivation)];
     row("mass matrix, rate terms, weight: as differentiated", count_expressions(&derivation.arena, derived.clone()));
     row("  each term in its cheapest form", count_expressions(&derivation.arena, condensed.clone()));
     row("  scene constants hoisted", count_hoisted(&derivation.arena, condensed));
@@ -61,9 +61,16 @@ fn as_derived(derivation: &Derivation) -> Vec<Expr> {
     rows.chain(equations.bias.iter().copied()).chain(equations.forcing.iter().copied()).collect()
 }
 
-/// The terms of which programs are made.
-fn condensed(derivation: &Derivation) -> Vec<Expr> {
-    let parts = &derivation.parts;
-    let pairs = parts.mass.iter().chain(&parts.bias).flatten().copied();
-    pairs.chain(parts.forcing.iter().flatten().copied()).collect()
+/// The same terms from the coefficients of which programs are made.
+fn condensed(derivation: &mut Derivation) -> Vec<Expr> {
+    let Derivation { arena, parts, symbols, .. } = derivation;
+    let squares: Vec<Expr> = symbols.omega.iter().map(|&rate| arena.square(rate)).collect();
+    let drivers = [symbols.ground_x, symbols.gravity];
+    let mut row = |coefficients: &[Expr], factors: &[Expr]| {
+        let terms: Vec<Expr> = coefficients.iter().zip(factors).map(|(&a, &b)| arena.mul(a, b)).collect();
+        arena.total(terms)
+    };
+    let bias: Vec<Expr> = parts.bias.iter().map(|coefficients| row(coefficients, &squares)).collect();
+    let forcing: Vec<Expr> = parts.forcing.iter().map(|coefficients| row(coefficients, &drivers)).collect();
+    parts.mass.iter().flatten().copied().chain(bias).chain(forcing).collect()
 }

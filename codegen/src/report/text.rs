@@ -11,7 +11,7 @@ use std::fmt::Write;
 
 /// Meanings of the symbols.
 pub(super) const NOTATION: &str = "theta_a [rad], omega_a, theta_ddot_a: angle, rate and angular acceleration of link a, absolute and clockwise positive; cos_a, sin_a: cosine and sine of theta_a.\n\
-    half_height_i [m], mass_i [kg], inertia_i [kg m^2]: of block i, counted from the base, inertia about its centroid. pivot_i [m]: where block i turns, right of its axis.\n\
+    half_height_i [m], mass_i [kg], inertia_i [kg m^2]: of block i, counted from the base, inertia about its centroid. pivot_i [m]: where block i turns without a slide, right of its axis.\n\
     ground_x [m/s^2]: acceleration of the ground to the right; gravity: g + vertical acceleration of the ground. Lateral components point to the left of a link, axial ones upwards.\n";
 
 /// What the sizes of blocks stand for.
