@@ -7,8 +7,8 @@
 //! # Notation
 //!
 //! `θ_i` absolute angle of block `i` `[rad]`, clockwise positive; `ω_i = θ̇_i`; `φ_i = θ_i - θ_{i-1}` relative angle at interface
-//! `i`; `s_i = sign φ_i` its state; `c_i` contact half-width; `N, T, M` contact force and moment on the stack above. Blocks and
-//! interfaces are counted from 1 in text and files, from 0 in code, always base first.
+//! `i`; `s_i = sign φ_i` its state; `c_i` contact half-width; `N, T, M` contact force and moment on the stack above. Lists and arguments count
+//! blocks and interfaces from 0; text, files and fields that name one, such as `Response::overturned_block`, count from 1; always base first.
 //!
 //! # A run, with `x⁻` before and `x⁺` after an event
 //!

@@ -517,7 +517,7 @@ impl Scene {
                     Some("file") => "its largest acceleration is that; scale it to 1e6 m/s² at most",
                     Some("dt") => "give an interval above 1e-9 s, up to 1e6",
                     Some("velocity") => "it is the velocity or velocity · omega; let both be up to 1e6",
-                    Some("cycles") => "give a whole number of cycles, at least one",
+                    Some("cycles") => "give a whole number of cycles from 1 to 1e6",
                     _ => "give a size up to 1e6, above zero for omega and duration",
                 };
                 faults.note(&format!("excitation.{component}.{name}"), format!("{value} is out of range"), remedy);

@@ -108,6 +108,9 @@ pub enum Failure {
     /// `--scale-to` names a measure that needs a column, and no scene is given.
     #[error("--scale-to {0}: that measure is of a column; name its scene with --scene")]
     NoColumn(String),
+    /// `--damping` is given where no spectral acceleration takes it.
+    #[error("--damping: no spectral acceleration takes it; give --sa, or --scale-to with sa(PERIOD) or sa_g(PERIOD)")]
+    Damping,
     /// `--plot` is given for a shard, which is a part of a sweep.
     #[error(
         "--plot: a shard is a part of a sweep; `rocking merge` the tables of all shards, then `rocking plot` the merged one"

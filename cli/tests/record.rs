@@ -239,6 +239,7 @@ fn options_that_have_no_effect_are_refused() {
     let own = folder.answers(&["record", &at2, "--scale-to", "sa(0.2 0.05)=3", "--damping", "0.2", "--json"][..]);
     assert_eq!(own["pga"].as_f64(), Some(usual));
     folder.refused(&["record", &at2, "--damping", "0.2"], &["--sa"]);
+    folder.refused(&["record", &at2, "--damping", "0.2", "--scale-to", "pgv=0.5"], &["--damping", "--sa"]);
     for (option, value) in [("--column", "2"), ("--skip-rows", "1")] {
         let key = option.trim_start_matches("--").replace('-', "_");
         folder.refused(&["record", &at2, option, value], &["text tables", "PEER AT2", &key[..4]]);

@@ -47,6 +47,9 @@ impl Scales {
     }
 }
 
+/// Largest number of cycles of a type C_n.
+const MOST_CYCLES: u64 = 1_000_000;
+
 /// Keys of amplitudes.
 const AMPLITUDES: [&str; 3] = ["amplitude", "amplitude_g", "amplitude_uplift"];
 
@@ -382,7 +385,11 @@ fn pulse(table: &mut Table, kind: &str, scales: Scales) -> Result<Motion, Wrong>
             let (amplitude, omega) = wave()?;
             let cycles =
                 table.whole("cycles", 1)?.ok_or_else(|| table.missing("cycles", "give n of type C_n, from 1"))?;
-            Motion::TypeC { amplitude, omega, start, cycles: u32::try_from(cycles).unwrap_or(u32::MAX) }
+            if cycles > MOST_CYCLES {
+                let remedy = "give a whole number of cycles from 1 to 1e6";
+                return Err(table.wrong("cycles", format!("{cycles} is out of range"), remedy));
+            }
+            Motion::TypeC { amplitude, omega, start, cycles: cycles as u32 }
         }
         "ricker" | "symmetric-ricker" => {
             let (amplitude, omega) = wave()?;

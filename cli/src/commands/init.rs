@@ -2,6 +2,7 @@
 
 use crate::error::{Failure, at};
 use crate::files::folder_of;
+use crate::number::significant;
 use crate::output;
 use crate::terminal::print;
 use crate::text::{shell_word, shown};
@@ -69,8 +70,11 @@ fn scene(blocks: usize, record: Option<&NamedRecord>) -> String {
         };
         let comment = if place.is_empty() { String::new() } else { format!("    # {place}") };
         let half_height = HALF_HEIGHT / blocks as f64;
-        let _ =
-            write!(text, "\n[[block]]{comment}\nhalf_width = 0.4\nhalf_height = {half_height:.4}\ndensity = 2700.0\n");
+        let _ = write!(
+            text,
+            "\n[[block]]{comment}\nhalf_width = 0.4\nhalf_height = {}\ndensity = 2700.0\n",
+            significant(half_height, 6)
+        );
     }
     text.push('\n');
     match record {

@@ -36,6 +36,11 @@ pub fn record(arguments: &arguments::Record, window: Option<Window>) -> Result<(
     let record = file.into_record().map_err(|error| Failure::Record(path.clone(), error))?;
     let record = record.named(path.display().to_string());
     let record = trimmed(record, window, arguments, description.duration)?;
+    let is_of_target = |target: &Target| matches!(target.intensity.measure, Measure::Sa { .. });
+    let has_spectral = !arguments.sa.is_empty() || arguments.scale_to.as_ref().is_some_and(is_of_target);
+    if arguments.damping.is_some() && !has_spectral {
+        return Err(Failure::Damping);
+    }
     let damping = arguments.damping.unwrap_or(DEFAULT_DAMPING);
     let record = scaled(record, arguments, column.as_ref(), damping, &path)?;
     description.measure(&record);

@@ -34,6 +34,11 @@ fn inputs_of(results: &Results) -> Vec<PathBuf> {
 
 /// Writes the page of the run in `folder` to `file`, or else beside its results.
 pub fn report(folder: &Path, file: Option<&Path>) -> Result<(), Failure> {
+    if folder.is_file() {
+        let problem =
+            "this is a file, and a report is of a run: give the folder of the run; `rocking plot` draws tables".into();
+        return Err(Failure::Input(folder.into(), problem));
+    }
     let file = file.map_or_else(|| folder.join(NAME), Path::to_path_buf);
     output::target(&file)?;
     let is_page = |end: &OsStr| ["html", "htm"].iter().any(|page| end.eq_ignore_ascii_case(page));

@@ -48,7 +48,7 @@ pub struct Component {
     #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "s", "x-default" = "rectangular: required; harmonic: for ever; synthetic: 20"))]
     pub duration: Option<f64>,
     /// n of type C_n
-    #[schemars(range(min = 1), extend("x-default" = "required by `type-c`"))]
+    #[schemars(range(min = 1, max = 1_000_000), extend("x-default" = "required by `type-c`"))]
     pub cycles: Option<u32>,
     /// the motions that `sum` adds
     #[schemars(extend("x-default" = "required by `sum`"))]

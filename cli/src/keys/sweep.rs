@@ -84,7 +84,7 @@ pub struct Range {
     #[schemars(extend("x-unit" = "of the key"))]
     pub to: f64,
     /// number of values, both ends among them; 1 where they are the same
-    #[schemars(range(min = 1, max = 10_000_000), extend("x-default" = "whole numbers from `from` to `to`"))]
+    #[schemars(range(min = 1, max = 10_000_000), extend("x-default" = "as many as there are whole numbers from `from` to `to`"))]
     pub steps: Option<u32>,
     /// evenly spaced, or in geometric progression
     #[schemars(extend("enum" = ["linear", "log"], "x-default" = "linear"))]

@@ -13,6 +13,9 @@ const SLIDES: f64 = 240.0;
 const GAPS: f64 = 110.0;
 const GAP: f64 = 16.0;
 
+/// Largest value before a fall, as a share of the largest of all, from which on it sets the axis.
+const LEAST_SHARE: f64 = 0.01;
+
 /// The figure. `None` if nothing slides or flies, or if a row lacks slides or gaps.
 pub fn draw(motion: &DrawnRun) -> Option<Figure> {
     let report = motion.results.response.motion_at_contacts()?;
@@ -59,12 +62,14 @@ fn curves_panel(
     time: Axis,
     (name, curves): (&str, &[Vec<Vec<Point>>]),
 ) -> Panel {
-    // A block that falls slides far. The axis therefore covers the values before the fall only, unless all of these are zero.
+    // A block that falls slides far. The axis therefore covers the values before the fall only, unless these are next to nothing.
     let points = || curves.iter().flatten().flatten();
     let until = |t: f64| points().filter(move |point| point[0] <= t).map(|point| point[1]).chain([0.0]);
-    let fall = motion.falls_at().filter(|fall| until(*fall).any(|value| value != 0.0)).unwrap_or(f64::INFINITY);
+    let largest_until = |t: f64| until(t).fold(0.0, |most: f64, value| most.max(value.abs()));
+    let is_visible = |fall: &f64| largest_until(*fall) > LEAST_SHARE * largest_until(f64::INFINITY);
+    let fall = motion.falls_at().filter(is_visible).unwrap_or(f64::INFINITY);
     let values: Vec<f64> = until(fall).collect();
-    let (factor, unit) = match values.iter().fold(0.0, |most: f64, value| most.max(value.abs())) {
+    let (factor, unit) = match largest_until(fall) {
         value if value >= 1.0 => (1.0, "m"),
         value if value >= 0.01 => (1e2, "cm"),
         _ => (1e3, "mm"),

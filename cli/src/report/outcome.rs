@@ -195,7 +195,7 @@ fn centimetres(length: f64) -> String {
     format!("{}&nbsp;cm", significant(100.0 * length.abs(), 3))
 }
 
-/// The key numbers: largest angle, impacts, the mode that lasts longest, ground acceleration.
+/// The key numbers: largest angle, impacts, the mode or rest that lasts longest in all, ground acceleration.
 pub fn tiles(results: &Results) -> String {
     let response = &results.response;
     let mut tiles = Vec::new();
@@ -207,7 +207,11 @@ pub fn tiles(results: &Results) -> String {
     let total: f64 = response.time_in_mode.values().sum();
     if let Some((mode, time)) = response.modes_by_time().first().copied().filter(|_| total > 0.0) {
         let name = if mode == "rest" { rest(response).to_string() } else { format!("mode {}", escape(mode)) };
-        tiles.push(("most of the time", name, format!("{} of {} s", percent(time / total), significant(total, 4))));
+        tiles.push((
+            "longest time in one state",
+            name,
+            format!("{} of {} s", percent(time / total), significant(total, 4)),
+        ));
     }
     let peaks = results.peak_ground_acceleration;
     let [x, y] = peaks.map(|peak| format!("{} g", significant(peak / results.column.gravity(), 3)));

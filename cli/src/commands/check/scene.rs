@@ -247,14 +247,16 @@ impl Findings {
         self.ground(&mut text, scene);
         self.friction(&mut text, scene);
         let options = &scene.options;
+        let steps = match options.method.has_step_control() {
+            true => format!("rtol {:e}, atol {:e}", options.rtol, options.atol),
+            false => format!("steps of {} s", options.step),
+        };
         let _ = writeln!(
             text,
-            "\nrun until {} s with method {}{}, rtol {:e}, atol {:e}; {} row(s) in response.csv",
+            "\nrun until {} s with method {}{}, {steps}; {} row(s) in response.csv",
             options.t_end,
             self.method,
             if options.method.name() == self.method { "" } else { " (chosen by auto)" },
-            options.rtol,
-            options.atol,
             self.rows
         );
         text

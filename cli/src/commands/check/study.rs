@@ -3,7 +3,7 @@
 use crate::error::Failure;
 use crate::number::significant;
 use crate::terminal::{json, print, warn_of_some};
-use crate::text::{printable, shown};
+use crate::text::{printable, shell_word, shown};
 use rocking::studies::{Ida, IdaFile, StudyRecord};
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -61,7 +61,7 @@ pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
         let _ = writeln!(text, "    {low} to {high}  {}{vertical}", printable(&record.name));
     }
     let _ = writeln!(text, "  limit states: {}", findings.states.join(", "));
-    let _ = writeln!(text, "run it with `rocking ida {}`", shown(path));
+    let _ = writeln!(text, "run it with `rocking ida {}`", shell_word(&shown(path)));
     print(&text)
 }
 

@@ -3,7 +3,7 @@
 use crate::commands::sweep;
 use crate::error::Failure;
 use crate::terminal::{json, print, warn_of_some};
-use crate::text::{distinct, printable, shown};
+use crate::text::{distinct, printable, shell_word, shown};
 use rocking::scene_file::Setting;
 use rocking::sweep::{Axis, Combine, Sweep};
 use serde::Serialize;
@@ -125,6 +125,11 @@ pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
     if cut > 0 {
         let _ = writeln!(text, "  the ground motion of {cut} of them goes on after solver.t_end, which cuts it");
     }
-    let _ = writeln!(text, "its base scene {} is valid; run it with `rocking sweep {}`", shown(&scene), shown(path));
+    let _ = writeln!(
+        text,
+        "its base scene {} is valid; run it with `rocking sweep {}`",
+        shown(&scene),
+        shell_word(&shown(path))
+    );
     print(&text)
 }
