@@ -1,7 +1,7 @@
 //! How far a run without sliding holds: everywhere, or as long as its forces stay within the cones of friction and no contact pulls.
 
 use super::problem::Problem;
-use super::recorder::{Recorder, forces_in};
+use super::recorder::{FINER, Recorder, forces_in};
 use super::state::State;
 use super::stretch::Stretch;
 use super::transition::Transition;
@@ -16,13 +16,9 @@ const WIDTH_ROUNDING: f64 = 1e-12;
 /// Share of the weight above a contact below which its force counts as vanished: rounding would decide where the contact opens.
 const NO_FORCE: f64 = 1e-10;
 
-/// Share of a coefficient below which a demand is examined with finer panels, and share of the weight above a contact below which its normal force is.
-/// Demands of forces that are parabolas over a panel were found to be off by up to 6e-4, most where vertical motion nearly cancels gravity
-/// (`tests/validity.rs`), and normal forces by up to 1.4e-4 of the weight.
+/// Share of a coefficient below which a demand is examined with finer panels. Demands of forces that are parabolas over a panel were found to be off by up to
+/// 6e-4, most where vertical motion nearly cancels gravity (`tests/validity.rs`).
 const NARROW: f64 = 2e-3;
-
-/// Number of panels of the finer ones in each: what parabolas leave out falls with the third power.
-const FINER: f64 = 16.0;
 
 /// Limits of the contact forces in a run without sliding.
 pub(crate) trait Limits {
@@ -64,8 +60,8 @@ pub(crate) struct Cones<'a> {
     friction: &'a Coefficients,
     /// Per interface, whether the upper block reaches beyond the lower one: the contact may then be a corner of the lower block on the base of the upper one.
     may_be_below: Vec<bool>,
-    /// Per interface, the weight above `[N]`.
-    weight: Vec<f64>,
+    /// Per interface, the normal force below which a contact parts `[N]`.
+    least_normal: Vec<f64>,
     /// Impulses of impacts in which no block turns faster are not checked `[rad/s]`.
     slowest_impact: f64,
 }
@@ -89,7 +85,7 @@ impl<'a> Cones<'a> {
         Cones {
             friction,
             may_be_below: (0..column.len()).map(may_be_below).collect(),
-            weight: (0..column.len()).map(|i| column.mass_above(i) * column.gravity()).collect(),
+            least_normal: (0..column.len()).map(|i| NO_FORCE * column.mass_above(i) * column.gravity()).collect(),
             slowest_impact: slowest_impact(column, stick_angle),
         }
     }
@@ -107,13 +103,6 @@ impl<'a> Cones<'a> {
             false => demand <= coefficient,
         }
     }
-
-    /// Whether demands or normal forces `[N]`, per interface, are beyond the limits, or within them by less than the share `narrow`.
-    fn are_left(&self, demands: &[f64], normal_forces: &[f64], gaps: &[f64], narrow: f64) -> bool {
-        let mut demands = demands.iter().zip(&self.friction.fixed).enumerate();
-        normal_forces.iter().zip(&self.weight).any(|(found, weight)| *found < NO_FORCE.max(narrow) * weight)
-            || demands.any(|(i, (demand, most))| !self.is_within(i, (1.0 + narrow) * demand, *most, gaps))
-    }
 }
 
 impl Limits for Cones<'_> {
@@ -121,19 +110,22 @@ impl Limits for Cones<'_> {
 
     fn hold(&self, record: &Recorder) -> bool {
         let gaps = record.largest_gaps();
-        !self.are_left(record.friction_demand(), record.min_normal_force(), gaps, 0.0)
+        let demands = record.friction_demand().iter().zip(&self.friction.fixed).enumerate();
+        record.min_normal_force().iter().zip(&self.least_normal).all(|(found, least)| found >= least)
+            && demands.into_iter().all(|(interface, (demand, most))| self.is_within(interface, *demand, *most, gaps))
     }
 
     fn fail_narrowly(&self, record: &Recorder, problem: &Problem, stretch: &mut Stretch) -> bool {
         let gaps = record.largest_gaps();
-        let mut are_left = |panels: f64, narrow: f64| {
-            let (demands, normal_forces) = forces_in(problem, panels, stretch);
-            self.are_left(&demands, &normal_forces, gaps, narrow)
+        let coefficients = &self.friction.fixed;
+        let exceeds = |demands: &[f64], factor: f64| {
+            let mut demands = demands.iter().zip(coefficients).enumerate();
+            demands.any(|(i, (demand, most))| !self.is_within(i, factor * demand, *most, gaps))
         };
-        // The record has the extremes of all stretches so far.
-        self.are_left(record.friction_demand(), record.min_normal_force(), gaps, NARROW)
-            && are_left(1.0, NARROW)
-            && are_left(FINER, 0.0)
+        // The record has the largest demands of all stretches so far.
+        exceeds(record.friction_demand(), 1.0 + NARROW)
+            && exceeds(&forces_in(problem, 1.0, stretch).0, 1.0 + NARROW)
+            && exceeds(&forces_in(problem, FINER, stretch).0, 1.0)
     }
 
     fn admit(&self, before: &State, transition: &Transition, record: &Recorder) -> bool {

@@ -15,6 +15,13 @@ use crate::response::{Event, EventKind, Impulse, ModeName, Response, Sample, Sep
 use rocking_codegen::pattern::Pattern;
 use std::collections::BTreeMap;
 
+/// Share of the weight above a contact below which its normal force is read in finer panels, as the sign of the force decides whether the contact parts.
+/// Normal forces that are parabolas over a panel were found to be off by up to 1.4e-4 of the weight.
+const NEARLY_NO_FORCE: f64 = 2e-3;
+
+/// Number of panels of the finer ones in each: what parabolas leave out falls with the third power.
+pub(crate) const FINER: f64 = 16.0;
+
 /// The record of a run under way.
 pub(crate) struct Recorder {
     log: Log,
@@ -131,7 +138,9 @@ impl Recorder {
         }
         let Recorder { needs, log, .. } = self;
         let Extremes { peak_theta, friction_demand, min_normal_force, .. } = &mut log.extremes;
-        let known = (&mut friction_demand[..], &mut min_normal_force[..]);
+        let column = &problem.scene.column;
+        let mut least = PerBlock::filled(f64::INFINITY, column.len());
+        let known = (&mut friction_demand[..], &mut least[..]);
         match needs {
             Some(needs) => {
                 needs.begin(stretch.inside, stretch.end, peak_theta);
@@ -141,6 +150,14 @@ impl Recorder {
                 needs.end(stretch.inside);
             }
             None => stretch.inside.forces(problem, &mut |panel| raise_forces(panel, (known.0, known.1), |_, _| ())),
+        }
+        let is_near_zero =
+            |(i, force): (usize, &f64)| force.abs() < NEARLY_NO_FORCE * column.mass_above(i) * column.gravity();
+        if least.iter().enumerate().any(is_near_zero) {
+            least = forces_in(problem, FINER, stretch).1;
+        }
+        for (known, found) in min_normal_force.iter_mut().zip(&least) {
+            *known = known.min(*found);
         }
     }
 
