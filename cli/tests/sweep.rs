@@ -46,6 +46,19 @@ fn rows_are_the_runs_of_their_scenes() {
     assert_eq!(fates.len(), 3, "{fates:?}");
 }
 
+/// A sweep over one number says at which of its values the column is lost, whatever their order: in one interval, in several, nowhere.
+#[test]
+fn the_values_at_which_the_column_is_lost_are_named() {
+    let of = |values: &str| {
+        let folder = folder(&format!("scene = \"base.toml\"\n[axes]\namplitude_uplift = {values}\n"));
+        folder.succeeds("sweep sweep.toml --out t.csv")
+    };
+    let key = "overturns or collapses at excitation.horizontal.amplitude_uplift";
+    assert_has(&of("{ from = 1.0, to = 9.0, steps = 33 }"), &[&format!("{key} = 2.5 to 6, 6.75 to 9; what lies between")]);
+    assert_has(&of("[9.0, 6.5, 1.0, 2.5]"), &[&format!("{key} = 2.5, 9; what lies between")]);
+    assert!(!of("[1.0, 6.5]").contains("at excitation"));
+}
+
 #[test]
 fn a_scene_that_fails_is_a_row_with_its_error() {
     // A key that some scenes know is no slip: others say so in their rows.

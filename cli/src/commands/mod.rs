@@ -7,6 +7,7 @@ mod ida;
 mod init;
 mod inputs;
 mod keys;
+mod lost_at;
 mod merge;
 mod modes;
 mod plot;

@@ -194,7 +194,10 @@ fn account(scene: &Scene, response: &Response, followed: &Followed) -> String {
     if let Some(report) = response.motion_at_contacts() {
         let slides: Vec<String> = report.residual_slide.iter().map(|slide| fixed(100.0 * slide, 3)).collect();
         let flights: usize = report.flights.iter().sum();
-        let _ = writeln!(text, "slides at the end, base first: {} cm; {flights} flight(s)", slides.join(", "));
+        // Blocks that fall slide and fly on: where they are at the end of the run is not where they stay.
+        let when =
+            if response.lost_block().is_some() { "slides when the run ends, in the fall" } else { "slides at the end" };
+        let _ = writeln!(text, "{when}, base first: {} cm; {flights} flight(s)", slides.join(", "));
     } else if response.sliding.is_some() && response.status != StopReason::Undetermined {
         let _ = writeln!(text, "friction holds: no block slides or flies");
     }

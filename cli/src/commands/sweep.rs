@@ -5,7 +5,7 @@
 
 use crate::arguments;
 use crate::commands::probability::{self, Lost};
-use crate::commands::{fractiles, spectrum};
+use crate::commands::{fractiles, lost_at, spectrum};
 use crate::error::Failure;
 use crate::output;
 use crate::plot::Paper;
@@ -78,7 +78,8 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
         let failed = first_error.as_ref().filter(|_| tally.errors < rows);
         let failed = failed.map_or(String::new(), |error| format!("the first error: {error}\n"));
         let figures = drawn.as_deref().unwrap_or_default();
-        print(&format!("{tally}{failed}{wrote}{probabilities}{fractiles}{figures}"))?;
+        let at = if request.shard.is_none() { lost_at::in_words(&sweep, &out)? } else { String::new() };
+        print(&format!("{tally}{at}{failed}{wrote}{probabilities}{fractiles}{figures}"))?;
     }
     drawn?;
     first_of_all.map_or(Ok(()), |first| Err(failure(first.clone(), false)))

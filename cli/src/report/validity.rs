@@ -254,7 +254,7 @@ pub fn details(results: &Results) -> String {
         text.push_str(&durations(validity));
     }
     match &response.sliding {
-        Some(report) => text.push_str(&slides(report)),
+        Some(report) => text.push_str(&slides(report, response.lost_block().is_some())),
         None => text.push_str(
             "<p>In the model blocks rock about their corners; they neither slide nor fly. The friction demand is the coefficient that an \
              interface needs so as not to slide; a normal force that falls to zero is a block about to lift off.</p>\n",
@@ -397,8 +397,8 @@ fn separations(results: &Results) -> String {
     }
 }
 
-/// What slid and flew, per interface, with the energy balance and the instants that friction leaves open.
-fn slides(report: &SlidingReport) -> String {
+/// What slid and flew, per interface, with the energy balance and the instants that friction leaves open. A column that `is_lost` ends the run in its fall.
+fn slides(report: &SlidingReport, is_lost: bool) -> String {
     let mut text = String::from(
         "<p>Blocks stick, slide and fly by Coulomb's law and Moreau's law of impact: where a contact sticks, |T|/N stays below its static \
          coefficient; while it slides, |T|/N is the kinetic one; where the normal force falls to zero, the blocks part.</p>\n",
@@ -429,6 +429,9 @@ fn slides(report: &SlidingReport) -> String {
          <th scope=\"col\">way slid [cm]</th><th scope=\"col\">time sliding [s]</th><th scope=\"col\">flights</th>\
          <th scope=\"col\">time free [s]</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
     );
+    if is_lost {
+        text.push_str("<p>The run ends in the fall: slides at its end are not those with which blocks stay, and count flights.</p>\n");
+    }
     if report.highest_flight > 0.0 {
         let _ = writeln!(text, "<p>Largest gap of a flight: {} cm.</p>", significant(100.0 * report.highest_flight, 3));
     }
