@@ -141,8 +141,8 @@ pub enum Command {
     /// Writes the table of all runs, and beside it TABLE-stripes.csv (counts and fractiles per level), TABLE-fragility.csv (a curve per limit
     /// state) and TABLE-shares.csv (raw shares per state and level). A study that was interrupted continues when it is started again.
     ///
-    /// Each run has nine companions with a tighter tolerance or slightly changed ground motion, sizes or friction.
-    /// A run counts as undecided if they do not confirm its verdict. `trust = false` in the study file turns them off.
+    /// Each run has nine companions with a tighter tolerance or slightly changed ground motion, sizes or friction, and 24 more where these are too few.
+    /// A run counts as undecided if its verdict is neither determined nor likely. `trust = false` in the study file turns them off.
     Ida(Ida),
     /// Fragility curves of a table that `rocking ida` has written, or a sweep with `ask = "peaks"` or `"slides"` over records and a measure.
     ///

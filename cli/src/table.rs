@@ -70,8 +70,7 @@ impl Format {
 pub fn open(path: &Path) -> std::io::Result<Rows> {
     check(path, LARGEST_TABLE)?;
     if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
-        let problem =
-            "this is the file of a scene, a sweep or a study, and no table; run it, and give the table that it writes";
+        let problem = "this is a TOML file and no table: `rocking sweep` and `rocking ida` make tables of such files";
         return Err(std::io::Error::new(std::io::ErrorKind::InvalidInput, problem));
     }
     match Format::of(path).map_err(std::io::Error::other)? {

@@ -54,7 +54,10 @@ fn the_values_at_which_the_column_is_lost_are_named() {
         folder.succeeds("sweep sweep.toml --out t.csv")
     };
     let key = "overturns or collapses at excitation.horizontal.amplitude_uplift";
-    assert_has(&of("{ from = 1.0, to = 9.0, steps = 33 }"), &[&format!("{key} = 2.5 to 6, 6.75 to 9; what lies between")]);
+    assert_has(
+        &of("{ from = 1.0, to = 9.0, steps = 33 }"),
+        &[&format!("{key} = 2.5 to 6, 6.75 to 9; what lies between")],
+    );
     assert_has(&of("[9.0, 6.5, 1.0, 2.5]"), &[&format!("{key} = 2.5, 9; what lies between")]);
     assert!(!of("[1.0, 6.5]").contains("at excitation"));
 }

@@ -110,7 +110,7 @@ fn a_study_counts_runs_that_are_not_determined_as_undecided() {
     assert!(found.iter().zip(&trust).all(agree), "{found:?} {trust:?}");
     assert_has(&told, &[&format!("\nlikely: {likely} run(s), counted with their own outcome")]);
     assert!(told.contains(&format!("not determined {open}")), "{told}");
-    assert_has(&told, &["\nnot determined: companions end otherwise, or part", "undecided run(s) are left out"]);
+    assert_has(&told, &["\nnot determined: companions end otherwise (", "undecided run(s) are left out"]);
     let figure = folder.read("ida.svg");
     assert!(figure.contains(&format!("{open} of 12 runs undecided, left out")), "the legend");
     let counted: f64 = folder.table("ida-stripes.csv").numbers("not_determined").iter().sum();

@@ -19,7 +19,7 @@ pub enum Fate {
     Collapses,
     /// No motion follows from the laws of contact with friction.
     Undetermined,
-    /// The verdict is not determined: runs whose inputs differ by less than can be known do not agree ([`crate::trust`]), the column may be falling at the
+    /// The verdict is neither determined nor likely: runs whose inputs differ by less than can be known do not agree ([`crate::trust`]), the column may be falling at the
     /// end ([`Response::may_overturn`]), or blocks slide on then ([`Response::slides_on`]). Only in studies.
     NotDetermined,
 }

@@ -1,7 +1,7 @@
 //! How far a run without sliding holds: everywhere, or as long as its forces stay within the cones of friction and no contact pulls.
 
 use super::problem::Problem;
-use super::recorder::{FINER, Recorder, forces_in};
+use super::recorder::{FINER, Recorder, friction_demand_in};
 use super::state::State;
 use super::stretch::Stretch;
 use super::transition::Transition;
@@ -124,8 +124,8 @@ impl Limits for Cones<'_> {
         };
         // The record has the largest demands of all stretches so far.
         exceeds(record.friction_demand(), 1.0 + NARROW)
-            && exceeds(&forces_in(problem, 1.0, stretch).0, 1.0 + NARROW)
-            && exceeds(&forces_in(problem, FINER, stretch).0, 1.0)
+            && exceeds(&friction_demand_in(problem, 1.0, stretch), 1.0 + NARROW)
+            && exceeds(&friction_demand_in(problem, FINER, stretch), 1.0)
     }
 
     fn admit(&self, before: &State, transition: &Transition, record: &Recorder) -> bool {

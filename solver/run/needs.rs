@@ -26,6 +26,8 @@ pub(crate) struct Needs {
     counted: Vec<Account>,
     /// What they have needed after `past_since`: it counts once a block has come back.
     pending: Vec<Account>,
+    /// `counted` and `pending` before the present stretch.
+    before: [Vec<Account>; 2],
     /// Whether some extreme of the present stretch has no angle yet.
     is_fresh: bool,
 }
@@ -122,6 +124,7 @@ impl Needs {
             is_past,
             counted: vec![Account::NEW; theta.len()],
             pending: vec![Account::NEW; theta.len()],
+            before: [Vec::with_capacity(theta.len()), Vec::with_capacity(theta.len())],
             is_fresh: false,
         }
     }
@@ -138,6 +141,16 @@ impl Needs {
             });
         }
         self.last_end = end;
+        self.before[0].clone_from(&self.counted);
+        self.before[1].clone_from(&self.pending);
+    }
+
+    /// Forgets the panels that have been added since the present stretch began.
+    pub fn undo_stretch(&mut self) {
+        let [counted, pending] = &self.before;
+        self.counted.clone_from(counted);
+        self.pending.clone_from(pending);
+        self.is_fresh = false;
     }
 
     /// Follows which blocks pass their balance, and which come back, in a part of a stretch `[s]` within which no block turns.

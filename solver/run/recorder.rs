@@ -9,6 +9,7 @@ use super::problem::Problem;
 use super::state::State;
 use super::stretch::{Over, Panel, Stretch};
 use super::transition::Transition;
+use crate::column::Column;
 use crate::contact::noticeable_impulses;
 use crate::numerics::per_block::{PerBlock, Size, for_size};
 use crate::response::{Event, EventKind, Impulse, ModeName, Response, Sample, Separation, StopReason};
@@ -138,27 +139,19 @@ impl Recorder {
         }
         let Recorder { needs, log, .. } = self;
         let Extremes { peak_theta, friction_demand, min_normal_force, .. } = &mut log.extremes;
-        let column = &problem.scene.column;
-        let mut least = PerBlock::filled(f64::INFINITY, column.len());
-        let known = (&mut friction_demand[..], &mut least[..]);
-        match needs {
-            Some(needs) => {
-                needs.begin(stretch.inside, stretch.end, peak_theta);
-                stretch.inside.forces(problem, &mut |panel| {
-                    raise_forces(panel, (known.0, known.1), |interface, own| needs.add(interface, panel, own));
-                });
-                needs.end(stretch.inside);
-            }
-            None => stretch.inside.forces(problem, &mut |panel| raise_forces(panel, (known.0, known.1), |_, _| ())),
+        if let Some(needs) = needs {
+            needs.begin(stretch.inside, stretch.end, peak_theta);
         }
-        let is_near_zero =
-            |(i, force): (usize, &f64)| force.abs() < NEARLY_NO_FORCE * column.mass_above(i) * column.gravity();
-        if least.iter().enumerate().any(is_near_zero) {
-            least = forces_in(problem, FINER, stretch).1;
+        let mut found = ForceExtremes::of(problem, stretch, needs.as_mut());
+        if found.come_near_zero(&problem.scene.column) {
+            needs.iter_mut().for_each(Needs::undo_stretch);
+            found = ForceExtremes::of(&problem.with_panels(FINER), stretch, needs.as_mut());
         }
-        for (known, found) in min_normal_force.iter_mut().zip(&least) {
-            *known = known.min(*found);
+        if let Some(needs) = needs {
+            needs.end(stretch.inside);
         }
+        friction_demand.iter_mut().zip(&found.friction_demand).for_each(|(known, found)| *known = known.max(*found));
+        min_normal_force.iter_mut().zip(&found.normal_force).for_each(|(known, found)| *known = known.min(*found));
     }
 
     fn record_row(&mut self, problem: &Problem, t: f64, theta: Vec<f64>, omega: Vec<f64>) {
@@ -279,20 +272,50 @@ impl Recorder {
     }
 }
 
-/// The largest friction demands and the least normal forces `[N]` in a stretch, per interface, from this many times as many panels as a recorder reads.
-pub(crate) fn forces_in(problem: &Problem, panels: f64, stretch: &mut Stretch) -> (PerBlock<f64>, PerBlock<f64>) {
+/// The largest friction demands of forces in a stretch, per interface, from this many times as many panels as a recorder reads.
+pub(crate) fn friction_demand_in(problem: &Problem, panels: f64, stretch: &mut Stretch) -> PerBlock<f64> {
     let finer = problem.with_panels(panels);
-    let blocks = problem.scene.column.len();
-    let (mut demand, mut least) = (PerBlock::filled(0.0, blocks), PerBlock::filled(f64::INFINITY, blocks));
-    let mut read = |stretch: &mut Stretch| {
-        stretch.inside.forces(&finer, &mut |panel| raise_forces(panel, (&mut demand, &mut least), |_, _| ()));
-    };
-    if stretch.is_coarse {
-        stretch.inside.refine(problem, &mut read);
-    } else {
-        read(stretch);
+    if !stretch.is_coarse {
+        return ForceExtremes::of(&finer, stretch, None).friction_demand;
     }
-    (demand, least)
+    let mut demand = PerBlock::filled(0.0, problem.scene.column.len());
+    stretch.inside.refine(problem, &mut |part| {
+        let found = ForceExtremes::of(&finer, part, None).friction_demand;
+        demand.iter_mut().zip(&found).for_each(|(known, found): (&mut f64, &f64)| *known = known.max(*found));
+    });
+    demand
+}
+
+/// Extremes of the contact forces in a stretch, per interface.
+struct ForceExtremes {
+    /// Largest `|T|/N`, dimensionless.
+    friction_demand: PerBlock<f64>,
+    /// Least `N` `[N]`.
+    normal_force: PerBlock<f64>,
+}
+
+impl ForceExtremes {
+    /// Those of a stretch that is not coarse, which is added to the account of what contacts need.
+    fn of(problem: &Problem, stretch: &mut Stretch, needs: Option<&mut Needs>) -> ForceExtremes {
+        let blocks = problem.scene.column.len();
+        let (mut demand, mut least) = (PerBlock::filled(0.0, blocks), PerBlock::filled(f64::INFINITY, blocks));
+        match needs {
+            Some(needs) => stretch.inside.forces(problem, &mut |panel| {
+                raise_forces(panel, (&mut demand, &mut least), |interface, own| needs.add(interface, panel, own));
+            }),
+            None => {
+                stretch.inside.forces(problem, &mut |panel| raise_forces(panel, (&mut demand, &mut least), |_, _| ()));
+            }
+        }
+        ForceExtremes { friction_demand: demand, normal_force: least }
+    }
+
+    /// Whether a normal force comes so near zero that parabolas through few values may give it the wrong sign.
+    fn come_near_zero(&self, column: &Column) -> bool {
+        let weight = |interface: usize| column.mass_above(interface) * column.gravity();
+        let is_near = |(i, force): (usize, &f64)| force.abs() < NEARLY_NO_FORCE * weight(i);
+        self.normal_force.iter().enumerate().any(is_near)
+    }
 }
 
 /// Raises the largest friction demands and lowers the least normal forces, per interface, by those of a panel: extremes of the parabolas through its

@@ -508,7 +508,7 @@ fn hint(message: &str, line: &str) -> &'static str {
     } else if line.split('=').next().is_some_and(|key| !key.contains(['"', '\'']) && key.trim().find('[') > Some(0)) {
         "a key with brackets stands in quotes"
     } else if !line.contains(['=', '[']) {
-        "a record or a table is no scene: `rocking record` and `rocking plot` show them"
+        "a key and its value stand on one line, joined by `=`; a record or a table is no scene: `rocking record` and `rocking plot` show them"
     } else if line.contains('\\') {
         "a path with backslashes stands in single quotes"
     } else {

@@ -153,7 +153,7 @@ fn records(reader: &Reader, root: &mut Table, column: &Column) -> Result<Vec<Stu
             }
             if let Some(key) = OF_FILES.into_iter().find(|key| table.has(key) && !table.has("files")) {
                 let problem = "it is of `files` or a `folder`, and neither is given".into();
-                let remedy = "remove it, or put `dt` below [records.synthetic]";
+                let remedy = if key == "dt" { "remove it, or put it below [records.synthetic]" } else { "remove it" };
                 return Err(table.wrong(key, problem, remedy).into());
             }
         }

@@ -115,7 +115,7 @@ pub struct IdaOutcome {
     /// Time up to which the angles are known `[s]`, in a run whose verdict is neither determined nor likely ([`crate::trust`]); otherwise `None`.
     /// Impacts, first uplift, peaks, and the gap that follows from angles are those up to this time.
     pub horizon: Option<f64>,
-    /// How far the verdict is determined; `None` without companions ([`Ida::followed`]).
+    /// How far the verdict is determined; `None` without companions ([`Ida::followed`]) and where no motion follows from the laws of contact.
     pub trust: Option<Degree>,
 }
 
@@ -386,11 +386,16 @@ impl Ida {
             let mut found = outcome(&scene, &response);
             if self.is_followed {
                 let trust = follow_run_observed(&scene, &response, TrustOptions::VERDICT, progress)?;
-                // A run that ended because no motion follows from the laws of contact stays undetermined, whatever its companions do.
+                found.trust = match found.fate {
+                    // No motion follows from the laws of contact: the run has no verdict, whatever its companions do.
+                    Fate::Undetermined => None,
+                    // The column may be falling, or slides on, where the run ends.
+                    Fate::NotDetermined => Some(Degree::NotDetermined),
+                    _ => Some(trust.degree()),
+                };
                 if trust.degree() == Degree::NotDetermined && found.fate != Fate::Undetermined {
-                    found = open(&scene, response, trust.known_until());
+                    found = IdaOutcome { trust: found.trust, ..open(&scene, response, trust.known_until()) };
                 }
-                found.trust = Some(trust.degree());
             }
             Ok(found)
         };

@@ -115,8 +115,9 @@ impl TryFrom<Cells<'_>> for Observation {
             None | Some("") => None,
             Some(name) => Some(Degree::parse(name).ok_or_else(|| WrongCell::Trust { found: name.into() })?),
         };
-        // A study says so in the column of outcomes; its peaks are those of the time in which the run is known.
-        let is_open = degree == Some(Degree::NotDetermined) && fate != Some(Fate::NotDetermined);
+        // A study says so in the column of outcomes; its peaks are those of the time in which the run is known. A run from which no motion follows has no
+        // verdict.
+        let is_open = degree == Some(Degree::NotDetermined) && fate.is_some_and(Fate::is_decided);
         let rocks = matches!(fate, Some(Fate::Rocks | Fate::Overturns | Fate::NotDetermined));
         Ok(Observation {
             record,

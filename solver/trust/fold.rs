@@ -21,7 +21,8 @@ const TRIED_WITH_SLIDING: [f64; 3] = [1e-3, 0.01, 0.1];
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Fold {
-    /// Magnitudes of the relative changes that were tried, each with both signs, ascending.
+    /// Magnitudes of the relative changes that were tried, each with both signs, ascending. A magnitude is left out where a changed run fails and the other has
+    /// the same verdict.
     pub tried: Vec<f64>,
     /// Changes of the last magnitude tried that change the verdict, one or two; empty if none does.
     pub turns: Vec<Turn>,

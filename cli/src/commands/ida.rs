@@ -83,6 +83,7 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     if request.json {
         json(&Summary {
             measure,
+            likely: counted.likely,
             stripes: stripes.iter().map(Line::of).collect(),
             fragility: &conclusions.fragilities,
         })?;
@@ -292,7 +293,7 @@ fn tally(ida: &Ida, stripes: &[Stripe]) -> String {
     if fates.clone().any(is_open) {
         let at_the_end =
             "the column may be falling, or slides on, where the run ends (a longer free_swing settles that)";
-        let by_companions = "companions end otherwise, or part from the run before its verdict is certain (the book, trust; with trust = false such runs \
+        let by_companions = "companions end otherwise (the book, trust; with trust = false such runs \
                              count as they end), or ";
         let _ = writeln!(text, "not determined: {}{at_the_end}", if ida.is_followed() { by_companions } else { "" });
     }
@@ -303,6 +304,8 @@ fn tally(ida: &Ida, stripes: &[Stripe]) -> String {
 #[derive(Serialize)]
 struct Summary<'a> {
     measure: String,
+    /// Runs whose verdict is likely, which are counted with their own outcome.
+    likely: usize,
     stripes: Vec<Line>,
     fragility: &'a [rocking::studies::Fragility],
 }

@@ -326,13 +326,13 @@ impl Tally {
             let degree = trust.and_then(|place| Degree::parse(row.get(place)?));
             tally.likely += usize::from(degree == Some(Degree::Likely));
             *match outcome.and_then(|outcome| row.get(outcome)).unwrap_or_default() {
+                name if name == Fate::Undetermined.name() => &mut tally.undetermined,
                 _ if degree == Some(Degree::NotDetermined) => &mut tally.not_determined,
                 name if name == Fate::NoUplift.name() => &mut tally.no_uplift,
                 name if name == Fate::Rocks.name() => &mut tally.rocks,
                 name if name == Fate::Overturns.name() => &mut tally.overturns,
                 name if name == Fate::Slides.name() => &mut tally.slides,
                 name if name == Fate::Collapses.name() => &mut tally.collapses,
-                name if name == Fate::Undetermined.name() => &mut tally.undetermined,
                 name if name == Fate::NotDetermined.name() => &mut tally.not_determined,
                 _ => {
                     first_error.get_or_insert_with(|| row.iter().next_back().unwrap_or_default().to_string());

@@ -43,7 +43,8 @@ pub fn draw(motion: &DrawnRun) -> Option<Figure> {
         panel = curves_panel(&mut sheet, motion, (panel.frame.bottom() + GAP, GAPS), time, ("Gap", &gaps));
     }
     sheet.height = sheet.label_below(&panel) + 8.0;
-    Some(Figure::new("slides", caption(motion, report, has_gaps), sheet))
+    let is_cut = [&slides, &gaps].into_iter().any(|curves| end_of_axis(motion, curves).is_finite());
+    Some(Figure::new("slides", caption(report, has_gaps, is_cut), sheet))
 }
 
 /// Parts of the slide of an interface over time, interrupted where its blocks are apart: a slide leads to the place at which a flight ends, but nothing
@@ -54,6 +55,24 @@ fn parts_in_contact(motion: &DrawnRun, interface: usize) -> Vec<Vec<Point>> {
     parts.map(|part| over_time(part, |sample| sample.slide[interface])).collect()
 }
 
+/// Zero, and the values of curves up to a time `[s]`, `[m]`.
+fn values_until(curves: &[Vec<Vec<Point>>], t: f64) -> Vec<f64> {
+    let points = curves.iter().flatten().flatten().filter(|point| point[0] <= t);
+    points.map(|point| point[1]).chain([0.0]).collect()
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most: f64, value| most.max(value.abs()))
+}
+
+/// Time up to which the axis of a panel covers the values of its curves `[s]`. A block that falls slides far: the axis ends with the fall, unless next to
+/// nothing moves before it.
+fn end_of_axis(motion: &DrawnRun, curves: &[Vec<Vec<Point>>]) -> f64 {
+    let until = |t: f64| largest(&values_until(curves, t));
+    let is_visible = |fall: &f64| until(*fall) > LEAST_SHARE * until(f64::INFINITY);
+    motion.falls_at().filter(is_visible).unwrap_or(f64::INFINITY)
+}
+
 /// A panel at `top` with a `height` `[px]`. `curves` has the parts of one curve per interface `[m]`.
 fn curves_panel(
     sheet: &mut Sheet,
@@ -62,19 +81,13 @@ fn curves_panel(
     time: Axis,
     (name, curves): (&str, &[Vec<Vec<Point>>]),
 ) -> Panel {
-    // A block that falls slides far. The axis therefore covers the values before the fall only, unless these are next to nothing.
-    let points = || curves.iter().flatten().flatten();
-    let until = |t: f64| points().filter(move |point| point[0] <= t).map(|point| point[1]).chain([0.0]);
-    let largest_until = |t: f64| until(t).fold(0.0, |most: f64, value| most.max(value.abs()));
-    let is_visible = |fall: &f64| largest_until(*fall) > LEAST_SHARE * largest_until(f64::INFINITY);
-    let fall = motion.falls_at().filter(is_visible).unwrap_or(f64::INFINITY);
-    let values: Vec<f64> = until(fall).collect();
-    let (factor, unit) = match largest_until(fall) {
+    let shown = values_until(curves, end_of_axis(motion, curves));
+    let (factor, unit) = match largest(&shown) {
         value if value >= 1.0 => (1.0, "m"),
         value if value >= 0.01 => (1e2, "cm"),
         _ => (1e3, "mm"),
     };
-    let axis = Axis::around(&format!("{name} [{unit}]"), values.iter().map(|value| value * factor), 3);
+    let axis = Axis::around(&format!("{name} [{unit}]"), shown.iter().map(|value| value * factor), 3);
     let panel = sheet.panel(top, height, time, axis);
     sheet.level(&panel, 0.0, &Stroke::solid(style::GREY, 0.8));
     for (interface, parts) in curves.iter().enumerate() {
@@ -85,7 +98,8 @@ fn curves_panel(
     panel
 }
 
-fn caption(motion: &DrawnRun, report: &SlidingReport, has_gaps: bool) -> String {
+/// The caption of a figure that `has_gaps`, and whose panels leave out what a fall `is_cut` from them.
+fn caption(report: &SlidingReport, has_gaps: bool, is_cut: bool) -> String {
     let mut caption = String::from(
         "Slides at output times: how far the middle of a block's base lies to the right of the middle of the face below, along that face",
     );
@@ -101,7 +115,7 @@ fn caption(motion: &DrawnRun, report: &SlidingReport, has_gaps: bool) -> String 
         })
         .collect();
     caption.push_str(&format!(" At the end: {}.", ends.join(", ")));
-    if motion.falls_at().is_some() {
+    if is_cut {
         caption.push_str(" Curves leave the panel where the column falls.");
     }
     caption

@@ -48,7 +48,8 @@ pub fn counts(pattern: &Pattern) -> String {
     let titles = format!("{:<86} {:>6} {:>10} {:>16} {:>10}", "", "flops", "additions", "multiplications", "divisions");
     format!(
         "{}\n{titles}\n{out}{sections}\n\
-         An addition or multiplication is one flop, a division is none; sines and cosines are inputs, one pair per free angle.\n\
+         In its cheapest form a term is the coefficient of a squared rate, of the ground's acceleration or of gravity, times these: a product more for one free angle,\n\
+         and fewer of them once hoisted. An addition or multiplication is one flop, a division is none; sines and cosines are inputs, one pair per free angle.\n\
          * kept: fewest divisions, then fewest flops, then the first.\n",
         title(pattern)
     )

@@ -8,7 +8,7 @@ use crate::names::first_few;
 const FEW_RECORDS: usize = 20;
 
 /// Remedy where runs at the levels that would give a curve have no answer.
-const NO_ANSWERS: &str = "the other runs have no answer: see their errors, let them go on for longer (`free_swing`), or their companions slide otherwise";
+const NO_ANSWERS: &str = "the other runs have no answer: see their errors, or let them go on for longer (`free_swing`)";
 
 impl Fragility {
     /// Findings in words, one sentence each, with numbers in the unit of the measure: the curve or why there is none, extrapolation, bands,

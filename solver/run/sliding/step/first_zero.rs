@@ -250,7 +250,7 @@ impl<O: Output> Step<'_, '_, O> {
         let one = value(self, near);
         if one <= clear {
             return match end < limit {
-                // It comes back before that can be resolved: a gap where the parabola of its rate does, which has the place below.
+                // It comes back before that can be resolved. A gap does so where `rate s + c s²` does, which has the value found at `end`.
                 true if is_gap => Some(rate * end / (rate - value(self, end) / end)),
                 true => Some(0.0),
                 // It does not leave zero upwards at once.
