@@ -36,6 +36,28 @@ fn record(keys: &str) -> String {
     with("kind = \"sine-pulse\"\namplitude = 3.0\nomega = 10.0", &format!("kind = \"record\"\n{keys}"))
 }
 
+/// A file of one kind that is given for another says what it is, and what takes it.
+#[test]
+fn files_of_another_kind() {
+    let folder = Folder::with("scene.toml", SCENE);
+    folder.write("table.csv", "index,outcome,impacts\n0,rocks,1\n");
+    folder.write("word.AT2", format!("{AT2} .1 .2 .3 .4\n"));
+    folder
+        .refused("report table.csv", &["table.csv", "this is a file", "give the folder of the run", "`rocking plot`"]);
+    for command in ["plot scene.toml", "fragility scene.toml"] {
+        folder.refused(command, &["scene.toml", "this is a TOML file and no table", "`rocking sweep`"]);
+    }
+    folder.refused("run word.AT2", &["word.AT2, line 1", "not TOML", "joined by `=`", "`rocking record`"]);
+}
+
+#[test]
+fn cycles_of_a_type_c() {
+    for cycles in ["0", "1000001", "4294967296"] {
+        let scene = with("kind = \"sine-pulse\"", &format!("kind = \"type-c\"\ncycles = {cycles}"));
+        refused(&scene, &["cycles", &format!("{cycles} is out of range"), "whole number"]);
+    }
+}
+
 #[test]
 fn no_blocks() {
     let (_, rest) = SCENE.split_once("half_height = 1.6\n").expect("the block comes first");

@@ -339,6 +339,15 @@ fn bad_studies_are_refused_with_place_and_remedy() {
         ),
         (with("[0.5]", records).replace("\"pgv\"", "\"sa\""), vec!["sa_period", "period"]),
         (with("[0.5]", "[records.synthetic]\nseeds = [0.5]\n"), vec!["records.synthetic.seeds", "whole numbers"]),
+        (
+            with("[0.5]", "[records]\ndt = 0.01\n[records.synthetic]\nseeds = [1]\n"),
+            vec!["`records.dt`", "neither is given", "below [records.synthetic]"],
+        ),
+        (
+            with("[0.5]", "[records]\nunits = \"g\"\n[records.synthetic]\nseeds = [1]\n"),
+            vec!["`records.units`", "neither is given"],
+        ),
+        (with("[0.5]", &format!("{records}[fragility]\nstates = []\n")), vec!["fragility.states", "the list is empty"]),
         (with("[0.5]", &format!("{records}wrong = 1\n")), vec!["records.wrong", "unknown"]),
     ] {
         folder.write("study.toml", &study);

@@ -5,7 +5,7 @@ use crate::common::{Folder, assert_has};
 #[test]
 fn a_new_scene_is_valid_and_runs_for_any_number_of_blocks() {
     let folder = Folder::new();
-    for blocks in 1..=5 {
+    for blocks in 1..=7 {
         let name = format!("{blocks}.toml");
         let said = folder.succeeds(&format!("init {name} --blocks {blocks}"));
         assert!(said.contains(&format!("rocking check {name}")), "{said}");

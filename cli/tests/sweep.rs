@@ -62,6 +62,20 @@ fn the_values_at_which_the_column_is_lost_are_named() {
     assert!(!of("[1.0, 6.5]").contains("at excitation"));
 }
 
+/// Files of a folder stand in the order of the numbers in their names, as the records of a study.
+#[test]
+fn files_of_a_folder_are_in_the_order_of_their_numbers() {
+    let folder = folder("scene = \"base.toml\"\n[axes]\nfile = { folder = \"records\" }\n");
+    folder.write("base.toml", BASE.replace(PULSE, "kind = \"record\"\nfile = \"records/R6.csv\""));
+    for name in ["R125", "R77", "R6"] {
+        folder.write(&format!("records/{name}.csv"), "time,acceleration (m/s2)\n0.0,0.0\n0.1,1.0\n0.2,-1.0\n0.3,0.0\n");
+    }
+    folder.succeeds("sweep sweep.toml --out t.csv");
+    let files = folder.table("t.csv");
+    let names = ["records/R6.csv", "records/R77.csv", "records/R125.csv"];
+    assert_eq!(files.texts("excitation.horizontal.file"), names);
+}
+
 #[test]
 fn a_scene_that_fails_is_a_row_with_its_error() {
     // A key that some scenes know is no slip: others say so in their rows.

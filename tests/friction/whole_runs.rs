@@ -127,6 +127,37 @@ fn mirror_images_slide_as_mirror_images() {
     }
 }
 
+/// Two tapered drums whose faces land on each other in flight: the slide there was that of the right corner, in mirror images as well.
+#[test]
+fn faces_that_land_slide_as_mirror_images_to_the_last_bit() {
+    let halves = [0.21703973533316756, 0.2040173512131775, 0.19099496709318745];
+    let half_height = 1.0004174535535082;
+    let block = |ends: &[f64]| {
+        Block::of_shape(Shape::Prism, [ends[0], ends[1]], half_height, 2.0 * half_height * (ends[0] + ends[1]))
+    };
+    let events = |side: f64| {
+        let column = Column::new(halves.windows(2).map(block).collect(), GRAVITY).expect("valid");
+        let slides = [-0.038305523467350805, 0.04566189789720414].map(|slide| side * slide);
+        let mut scene = Scene::new(column.displaced(slides.to_vec()).expect("on their supports"));
+        scene.friction = Some(Friction::new(
+            vec![0.1861843378680475, 0.36153321123997795],
+            vec![0.13473291675820445, 0.36153321123997795],
+        ));
+        scene.restitution = Restitution::Eta(0.8);
+        let omega = TAU / 0.43969179312670836;
+        scene.excitation.horizontal = Some(Motion::HalfSine { amplitude: side * 5.697051419032492, omega, start: 0.0 });
+        let omega = TAU / 0.6680554486839253;
+        scene.excitation.vertical = Some(Motion::SinePulse { amplitude: 12.779834846515016, omega, start: 0.0 });
+        scene.options.t_end = 8.0;
+        let events = run(&scene).events;
+        let slides = |event: &Event| event.slide.iter().map(|slide| side * slide).collect::<Vec<_>>();
+        events.iter().map(|event| (event.t, event.kind, slides(event))).collect::<Vec<_>>()
+    };
+    let (one, other) = (events(1.0), events(-1.0));
+    assert!(one.iter().filter(|(_, kind, _)| *kind == EventKind::Landing).count() > 1, "{one:?}");
+    assert_eq!(one, other);
+}
+
 /// Ground's work and friction's work less what impacts lose is the change of energy.
 #[test]
 fn the_energy_balance_closes() {

@@ -23,6 +23,7 @@ use rocking::studies::{
     DEFAULT_STATES, FRACTILES, FragilityOptions, Ida, IdaFile, IdaRun, Layout, LimitState, Stripe, stripes,
 };
 use rocking::sweep::ERROR;
+use rocking::trust::Degree;
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -246,10 +247,10 @@ fn cells(ida: &Ida, run: &IdaRun, columns: usize) -> StringRecord {
             cells.push(found.first_uplift.map_or(String::new(), number));
             cells.push(number(found.largest_gap));
             cells.extend(found.peaks.iter().chain(&found.residual_slides).copied().map(number));
-            cells.resize(columns, String::new());
-            if let Some(trust) = found.trust {
-                cells[columns - 2] = trust.name().into();
-            }
+            // Slides of a run that is not determined are blank; trust and error are the last columns.
+            let last = if ida.is_followed() { vec![found.trust.map_or("", Degree::name), ""] } else { vec![""] };
+            cells.resize(columns - last.len(), String::new());
+            cells.extend(last.into_iter().map(String::from));
         }
         Err(error) => {
             cells.push(ERROR.into());

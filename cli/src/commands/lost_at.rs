@@ -10,35 +10,40 @@ use std::path::Path;
 /// Largest number of intervals of values that are named one by one.
 const MOST_NAMED: usize = 6;
 
+/// A run at a value of the axis.
+struct Run<'s> {
+    number: f64,
+    /// The value as it is written.
+    setting: &'s Setting,
+    is_lost: bool,
+}
+
 /// The line about the values at which the column overturns or collapses, from the finished table. Empty for a sweep over several axes, records, names or
 /// distributions, and where the column is lost nowhere or everywhere.
 pub fn in_words(sweep: &Sweep, out: &Path) -> Result<String, Failure> {
     let ([axis], None) = (&sweep.axes[..], sweep.samples()) else { return Ok(String::new()) };
-    let is_number = |setting: &Setting| matches!(setting, Setting::Number(_));
-    if is_of_records(&axis.key) || !axis.values.iter().all(is_number) {
+    if is_of_records(&axis.key) {
         return Ok(String::new());
     }
     let (_, rows) = decided(out).map_err(at(Failure::Study, out))?;
     let mut runs = Vec::with_capacity(axis.values.len());
     for (setting, row) in axis.values.iter().zip(rows) {
+        let Setting::Number(number) = *setting else { return Ok(String::new()) };
         let (fate, _) = row.map_err(at(Failure::Study, out))?;
-        if let Setting::Number(value) = setting {
-            runs.push((*value, setting, fate.is_some_and(|fate| fate.is_lost())));
-        }
+        runs.push(Run { number, setting, is_lost: fate.is_some_and(|fate| fate.is_lost()) });
     }
-    runs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    runs.sort_by(|a, b| a.number.total_cmp(&b.number));
     let intervals: Vec<String> = runs
-        .chunk_by(|a, b| a.2 && b.2)
-        .filter(|interval| interval[0].2)
+        .chunk_by(|a, b| a.is_lost && b.is_lost)
+        .filter(|interval| interval[0].is_lost)
         .map(|interval| match interval {
-            [(_, first, _), .., (_, last, _)] => format!("{first} to {last}"),
-            [(_, only, _)] => only.to_string(),
-            [] => String::new(),
+            [first, .., last] => format!("{} to {}", first.setting, last.setting),
+            one => one[0].setting.to_string(),
         })
         .collect();
     let words = match intervals.len() {
         0 => return Ok(String::new()),
-        1 if runs.iter().all(|run| run.2) => return Ok(String::new()),
+        1 if runs.iter().all(|run| run.is_lost) => return Ok(String::new()),
         1..=MOST_NAMED => intervals.join(", "),
         more => format!("{} and in {} further intervals, the last {}", intervals[0], more - 1, intervals[more - 1]),
     };

@@ -255,3 +255,24 @@ fn count_uses(arena: &Arena, expr: Expr, uses: &mut HashMap<Expr, usize>) {
             .for_each(|(base, _)| count_uses(arena, *base, uses));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::symbolic::{Level, Unit};
+
+    struct Plain;
+
+    impl Style for Plain {}
+
+    /// `a + b.recip()` would be another number.
+    #[test]
+    fn the_reciprocal_of_a_sum_has_brackets() {
+        let mut arena = Arena::new();
+        let [a, b] = ["a", "b"].map(|name| arena.symbol(name, Level::State, Unit::default()));
+        let sum = arena.add(a, b);
+        let reciprocal = arena.reciprocal(sum);
+        let tokens = Writer::new(&arena, [], &[reciprocal], &Plain).read(reciprocal);
+        assert_eq!(tokens.to_string(), "(a + b) . recip ()");
+    }
+}

@@ -289,3 +289,22 @@ impl Style for StateNames {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::derivation::derive;
+    use crate::pattern::Linkage;
+
+    /// In a baked column `inverse_gravity` may be a literal: what the other constants are does not hang on its being among them.
+    #[test]
+    fn constants_say_what_they_are_by_their_own_unit() {
+        let [mut program, _] = derive(&Linkage { open: vec![true; 3] }).accelerations;
+        let described = |program: &Program| describe("title", program).to_string();
+        let named = described(&program);
+        assert!(named.contains("inverse_gravity") && named.contains("over gravity"), "{named}");
+        program.constants.retain(|constant| constant.name != "inverse_gravity");
+        let baked = described(&program);
+        assert!(!baked.contains("inverse_gravity") && baked.contains("over gravity"), "{baked}");
+    }
+}
