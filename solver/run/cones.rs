@@ -141,7 +141,7 @@ impl Limits for Cones<'_> {
             let (demand, coefficient) = (impulse.friction_demand(), self.friction.kinetic[interface]);
             impulse.normal > 0.0 && self.is_within(interface, demand, coefficient, gaps)
         };
-        // The plastic impact must hold by itself: where it slides, nothing rebounds (docs/book/model.md, section 17).
+        // The plastic impact must hold by itself: where it slides, it rebounds from another rate (docs/book/model.md, section 17).
         noticeable_impulses(&decision.impulses).all(is_held)
             && noticeable_impulses(&decision.plastic_impulses).all(is_held)
     }

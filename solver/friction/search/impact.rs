@@ -69,49 +69,82 @@ impl Search<'_> {
         Search::new(self.column, self.now, self.touch, self.friction, question).complementary(&self.friction.kinetic)
     }
 
-    /// The answer to an impact after restitution at some interfaces, base first: each relative rate is multiplied by its factor, through an equal and
-    /// opposite moment impulse there, in the states of the plastic solution (docs/book/model.md, sections 5 and 17). `None` where that would raise the
-    /// energy, or break a condition of contact.
-    pub fn rebound(&self, plastic: &Solution, rebounding: &[(usize, f64)]) -> Option<Answer> {
+    /// The impact after restitution at some interfaces, base first: each relative rate is multiplied by its factor, through an equal and opposite moment
+    /// impulse there (docs/book/model.md, sections 5 and 17). The states are those of the plastic solution, but a contact whose slide would turn back
+    /// sticks. `None` where restitution would raise the energy, or break a condition of contact.
+    pub fn rebound(&self, plastic: &Solution, rebounding: &[(usize, f64)]) -> Option<Solution> {
+        let target = |&(interface, factor): &(usize, f64)| {
+            (interface, factor * relative(&plastic.answer.motion.omega, interface))
+        };
+        let targets: Vec<(usize, f64)> = rebounding.iter().map(target).collect();
+        let mut joints = plastic.joints.clone();
+        loop {
+            let answer = self.with_relative_rates(&joints, &targets)?;
+            let mut turns_back = false;
+            for (interface, joint) in joints.iter_mut().enumerate() {
+                if matches!(joint.slip(), Some(Slip::Slides(_)))
+                    && self.wrong_slip(interface, *joint, &answer, self.slack).is_some()
+                {
+                    *joint = match *joint {
+                        Joint::Corner(side, ..) => self.corner(interface, side, Slip::Sticks),
+                        _ => Joint::Closed(Slip::Sticks),
+                    };
+                    turns_back = true;
+                }
+            }
+            if !turns_back {
+                let is_ambiguous = plastic.is_ambiguous;
+                return self.may_rebound(&joints, &answer).then_some(Solution { joints, answer, is_ambiguous });
+            }
+        }
+    }
+
+    /// The impact in which moment impulses at some interfaces, base first, give them these relative rates `[rad/s]`. `None` if no such impulses can.
+    fn with_relative_rates(&self, joints: &[Joint], targets: &[(usize, f64)]) -> Option<Answer> {
         let Question::Impact(before) = &self.question else { return None };
-        let joints = &plastic.joints;
         let configuration = self.configuration(joints);
         let chain = Chain::new(self.column, &configuration);
         let rows = Rows::new(&chain, joints, &self.friction.kinetic, &self.centres);
-        let plastic = &plastic.answer.motion;
+        let mut rates = rows.impact(before)?.motion;
         let turned: Vec<Rates> =
-            rebounding.iter().map(|(interface, _)| rows.turned_by_moment(*interface)).collect::<Option<_>>()?;
-        let mut compliances = Factors::with_size(rebounding.len());
-        for (row, (interface, _)) in rebounding.iter().enumerate() {
+            targets.iter().map(|(interface, _)| rows.turned_by_moment(*interface)).collect::<Option<_>>()?;
+        let mut compliances = Factors::with_size(targets.len());
+        for (row, (interface, _)) in targets.iter().enumerate() {
             for (column, turned) in turned.iter().enumerate() {
                 *compliances.entry(row, column) = relative(&turned.omega, *interface);
             }
         }
         compliances.factorise().filter(|()| compliances.is_positive())?;
-        let change = |&(interface, factor): &(usize, f64)| (factor - 1.0) * relative(&plastic.omega, interface);
-        let mut impulses: Vec<f64> = rebounding.iter().map(change).collect();
+        let change = |&(interface, target): &(usize, f64)| target - relative(&rates.omega, interface);
+        let mut impulses: Vec<f64> = targets.iter().map(change).collect();
         compliances.solve(&mut impulses);
-        let mut rates = plastic.clone();
         for (impulse, turned) in impulses.iter().zip(&turned) {
             rates = rates.plus(*impulse, turned);
         }
         // Exactly, base first: with a factor of zero, the rounding of the sum would be a hop.
-        for &(interface, factor) in rebounding {
-            let rebound = lower(&rates.omega, interface) + factor * relative(&plastic.omega, interface);
+        for &(interface, target) in targets {
+            let rebound = lower(&rates.omega, interface) + target;
             rates.omega[joined_above(joints, interface)].fill(rebound);
         }
-        let answer = rows.given(rates, before);
+        Some(rows.given(rates, before))
+    }
+
+    /// Whether an impact with restitution keeps to the conditions of contact, and gains no energy.
+    fn may_rebound(&self, joints: &[Joint], answer: &Answer) -> bool {
+        let Question::Impact(before) = &self.question else { return false };
+        let configuration = self.configuration(joints);
+        let chain = Chain::new(self.column, &configuration);
         let gains =
             chain.motion(&answer.motion).energy(self.column) > before.energy(self.column) * (1.0 + ENERGY_ROUNDING);
         let holds = |i: usize| match joints[i] {
             // Where the resultant acts in a closed contact is no condition of restitution.
             Joint::Closed(_) => {
                 answer.contacts[i].normal >= -self.force_slack(i, self.slack)
-                    && self.wrong_slip(i, joints[i], &answer, self.slack).is_none()
+                    && self.wrong_slip(i, joints[i], answer, self.slack).is_none()
             }
-            _ => self.required(joints, &answer, i, self.slack).is_none(),
+            _ => self.required(joints, answer, i, self.slack).is_none(),
         };
-        (!gains && (0..joints.len()).all(holds)).then_some(answer)
+        !gains && (0..joints.len()).all(holds)
     }
 }
 
@@ -154,8 +187,8 @@ mod tests {
             }
             let before = relative_rates(&plastic.answer.motion.omega);
             for factors in [[0.9, 1.0], [1.0, 0.9], [0.8, 0.95]] {
-                let Some(answer) = search.rebound(&plastic, &[0, 1].map(|i| (i, factors[i]))) else { continue };
-                let after = relative_rates(&answer.motion.omega);
+                let Some(rebound) = search.rebound(&plastic, &[0, 1].map(|i| (i, factors[i]))) else { continue };
+                let after = relative_rates(&rebound.answer.motion.omega);
                 // Sums and differences of two rates.
                 assert!(
                     (0..2).all(|i| (after[i] - factors[i] * before[i]).abs() < 1e-15),

@@ -8,7 +8,6 @@ use crate::friction::chain::{Chain, Rates};
 use crate::friction::contact_problem::{Question, Touch};
 use crate::friction::gaps::{self, Corner};
 use crate::friction::joint::{Face, Joint, Slip, face, joined_above};
-use crate::friction::rows::Answer;
 use crate::friction::search::{Search, Solution};
 use crate::mechanics::kinematics::lower;
 use crate::response::{EventKind, Impulse};
@@ -132,16 +131,16 @@ impl PendingTransition<'_> {
             }
             search.solve_from(first)
         };
-        let solution = found.ok_or(RunEnd::Undetermined)?;
-        self.ambiguous += usize::from(solution.is_ambiguous);
+        let plastic = found.ok_or(RunEnd::Undetermined)?;
+        self.ambiguous += usize::from(plastic.is_ambiguous);
         let closed = closing.iter().copied().filter(|interface| touch[*interface] == Touch::Faces);
-        let answer = self.rebounding(&search, &solution, closed);
-        for (interface, joint) in solution.joints.iter().enumerate() {
+        let Solution { joints, answer, .. } = self.rebounding(&search, plastic, closed);
+        for (interface, joint) in joints.iter().enumerate() {
             if *joint == Joint::Free && before.joints[interface] != Joint::Free {
                 self.now.apart[interface] = chain.apart(interface);
             }
         }
-        self.now.joints.clone_from(&solution.joints);
+        self.now.joints = joints;
         answer.motion.give(&mut self.now);
         self.stop_slides_without_direction();
         self.part_coinciding_corners();
@@ -174,18 +173,17 @@ impl PendingTransition<'_> {
         }
     }
 
-    /// The answer with the scene's restitution; the plastic one if nothing rebounds, or restitution is left out, which is counted. `closed` are the
+    /// The solution with the scene's restitution; the plastic one if nothing rebounds, or restitution is left out, which is counted. `closed` are the
     /// interfaces whose faces have met: a corner that lands transmits no moment.
-    fn rebounding(&mut self, search: &Search, plastic: &Solution, closed: impl Iterator<Item = usize>) -> Answer {
+    fn rebounding(&mut self, search: &Search, plastic: Solution, closed: impl Iterator<Item = usize>) -> Solution {
         let kappa = &self.problem.kappa;
-        let none_slides = plastic.joints.iter().all(|joint| joint.sticks() || *joint == Joint::Free);
         let rebounding: Vec<(usize, f64)> =
             closed.filter(|&i| plastic.joints[i].is_corner()).map(|i| (i, kappa[i])).collect();
         if rebounding.iter().all(|(_, factor)| *factor == 1.0) {
-            return plastic.answer.clone();
+            return plastic;
         }
-        let rebound = if none_slides { search.rebound(plastic, &rebounding) } else { None };
+        let rebound = search.rebound(&plastic, &rebounding);
         self.without_restitution += usize::from(rebound.is_none());
-        rebound.unwrap_or_else(|| plastic.answer.clone())
+        rebound.unwrap_or(plastic)
     }
 }

@@ -352,9 +352,11 @@ impl Findings {
         if let ([block], Restitution::Eta(eta), Some(friction)) =
             (&self.stacks[..], &scene.restitution, &scene.friction)
         {
-            let needed = block.stack.centroid_height / block.stack.half_width * (1.0 - eta) / (1.0 + eta);
-            let kinetic = friction.kinetic[0];
-            if needed > kinetic {
+            let needed =
+                |ratio: f64| block.stack.centroid_height / block.stack.half_width * (1.0 - ratio) / (1.0 + ratio);
+            let (kinetic, plastic, needed) = (friction.kinetic[0], needed(block.housner_ratio), needed(*eta));
+            // Where the plastic impact slides, so does the one with restitution.
+            if plastic <= kinetic && kinetic < needed {
                 let _ = writeln!(
                     text,
                     "  an impact at which nothing slides needs a coefficient of friction of {}; with {} restitution is left out",
