@@ -353,23 +353,19 @@ fn cut(table: &mut Table, count: usize, derived: &mut Vec<Derived>) -> Result<Ve
         Block::of_shape(shape, half_widths, half_height, mass)
     };
     let blocks: Vec<Block> = (0..count).map(of_part).collect();
-    let mut derive = |key: &str, value: f64, unit: &'static str, from: String| {
-        derived.push(Derived { key: table.dotted(key), value, unit, from });
+    let mut derive = |block: &str, key: &str, value: f64, unit: &'static str, from: String| {
+        derived.push(Derived { key: format!("{block}.{key}"), value, unit, from });
     };
-    derive("half_height", half_height, "m", format!("of each block: the whole over {count}"));
-    let (lowest, part) = (&blocks[0], if bottom == top { "each block" } else { "the lowest block" });
+    let each = format!("block[1..{count}]");
+    derive(&each, "half_height", half_height, "m", format!("{} / {count}", table.dotted("half_height")));
+    let (lowest, known) = (&blocks[0], if bottom == top { each.as_str() } else { "block[1]" });
     let from = match &amount {
-        Amount::Mass(_) if bottom == top => format!("of each block: the whole over {count}"),
-        Amount::Mass(_) => "of the lowest block: its share of the whole".into(),
-        Amount::Density(density) => match density.mass(shape, [at(0), at(1)], half_height).1 {
-            from if bottom == top => from,
-            from => format!("of {part}: {from}"),
-        },
+        Amount::Mass(_) if bottom == top => format!("{} / {count}", table.dotted("mass")),
+        Amount::Mass(_) => format!("its share of {}", table.dotted("mass")),
+        Amount::Density(density) => density.mass(shape, [at(0), at(1)], half_height).1,
     };
-    derive("mass", lowest.mass, "kg", from);
-    let from = homogeneous(shape, [at(0), at(1)]);
-    let from = if bottom == top { from.into() } else { format!("of {part}: {from}") };
-    derive("inertia", lowest.inertia, "kg m²", from);
+    derive(known, "mass", lowest.mass, "kg", from);
+    derive(known, "inertia", lowest.inertia, "kg m²", homogeneous(shape, [at(0), at(1)]).into());
     for block in &blocks {
         check_range(table, block)?;
     }

@@ -440,16 +440,21 @@ impl Table {
             let lower = [known.as_ref(), &*unknown.key].map(str::to_lowercase);
             (strsim::levenshtein(&lower[0], &lower[1]), strsim::levenshtein(known, &unknown.key))
         };
-        let nearest = self.asked.iter().min_by_key(distance);
-        let remedy = match nearest.filter(|known| is_slip(known, &unknown.key)) {
+        let nearest = self.asked.iter().min_by_key(distance).map(Cow::as_ref);
+        let usual = USUAL_NAMES.iter().find(|(other, key)| **other == *unknown.key && self.has_asked(key));
+        let meant = usual.map(|(_, key)| *key).or(nearest.filter(|known| is_slip(known, &unknown.key)));
+        let remedy = match meant {
             Some(known) => format!("did you mean `{known}`?"),
             None if !self.name.is_empty() && OF_NO_TABLE.contains(&&*unknown.key) => {
-                format!("move it to the top of the file, above all tables: below [{}] it is a key of that", self.name)
+                format!(
+                    "move it to the top of the file, above all tables: below the line [{}] it belongs to that table",
+                    self.name
+                )
             }
             None if &*self.name == "excitation" => {
                 "write it below [excitation.horizontal] or [excitation.vertical]".into()
             }
-            None => format!("remove it; known here are {}", self.asked.join(", ")),
+            None => format!("known here are {}: take one of these, or remove it", self.asked.join(", ")),
         };
         Err(self.unknown(unknown, remedy))
     }
@@ -519,8 +524,11 @@ fn hint(message: &str, line: &str) -> &'static str {
 /// Keys of a scene that stand in no table.
 const OF_NO_TABLE: [&str; 3] = ["title", "gravity", "friction"];
 
-/// Whether `written` may be a misspelling of `key`, or the last part of `key`, as `width` is of `half_width`.
+/// What the field calls keys of a scene, with their names.
+const USUAL_NAMES: [(&str, &str); 3] = [("mu", "friction"), ("g", "gravity"), ("duration", "t_end")];
+
+/// Whether `written` may be a misspelling of `key`, `key` in capitals, or the last part of `key`, as `width` is of `half_width`.
 fn is_slip(key: &str, written: &str) -> bool {
     let is_end = key.strip_suffix(written).is_some_and(|start| start.ends_with('_'));
-    is_end || strsim::levenshtein(key, written) <= 1 + written.len() / 4
+    is_end || key.eq_ignore_ascii_case(written) || strsim::levenshtein(key, written) <= 1 + written.len() / 4
 }

@@ -72,9 +72,9 @@ impl Method {
     /// Methods with step control of order 5 and more, which tests and benchmarks compare. [`Method::Auto`] is left out: it steps by one of them.
     pub const ACCURATE: [Method; 3] = [Method::Dop853, Method::DormandPrince54, Method::Taylor];
 
-    /// The method of this name; `dopri5` is another name of `dormand-prince54`.
+    /// The method of this name; `dopri5` and `rk45` are other names of `dormand-prince54`.
     pub fn parse(name: &str) -> Option<Method> {
-        let name = if name == "dopri5" { "dormand-prince54" } else { name };
+        let name = if ["dopri5", "rk45"].contains(&name) { "dormand-prince54" } else { name };
         Method::ALL.iter().copied().find(|method| method.name() == name)
     }
 }

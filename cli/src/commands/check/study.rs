@@ -61,7 +61,7 @@ pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
         let _ = writeln!(text, "    {low} to {high}  {}{vertical}", printable(&record.name));
     }
     let _ = writeln!(text, "  limit states: {}", findings.states.join(", "));
-    let _ = writeln!(text, "run it with `rocking ida {}`", shell_word(&shown(path)));
+    let _ = writeln!(text, "run the study with `rocking ida {}`", shell_word(&shown(path)));
     print(&text)
 }
 

@@ -127,7 +127,7 @@ pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
     }
     let _ = writeln!(
         text,
-        "its base scene {} is valid; run it with `rocking sweep {}`",
+        "its base scene {} is valid; run the sweep with `rocking sweep {}`",
         shown(&scene),
         shell_word(&shown(path))
     );
