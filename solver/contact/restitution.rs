@@ -9,9 +9,9 @@ pub(crate) const ENERGY_ROUNDING: f64 = 1e-12;
 
 /// What restitution does at an impact.
 pub(super) enum Restitution<S: Size> {
-    /// Nothing: nothing that strikes pivots on, or all factors are one.
+    /// Plastic rates stand: no interface that closed opens again, or all factors are one.
     None,
-    /// The model leaves it out: it would close an interface that opens, or gain energy.
+    /// Restitution is left out: it would close an interface that opens, gain energy, or has no solution.
     LeftOut,
     /// The blocks' rates afterwards.
     Rates(S::List<f64>),

@@ -7,7 +7,7 @@
 //! Σ_{i≥j} m_i A_i · R(θ_face) (1, ε μ) = 0          which is T + ε μ N = 0
 //! ```
 //!
-//! No normal force is solved for, and the matrix is not symmetric. In a smooth motion `A` are accelerations less gravity. In an impact `A` are the
+//! No normal force is solved for, and the matrix is not symmetric. In a smooth motion `A` are accelerations, with gravity and the ground's added. In an impact `A` are the
 //! jumps of velocity, and forces are impulses.
 
 use super::chain::{BlockMotion, Chain, Rates};
@@ -90,7 +90,7 @@ pub fn by_block(coordinates: &[Coordinate], values: &[f64], blocks: usize) -> Ra
 pub struct Answer {
     /// Accelerations of the coordinates, or their rates after an impact.
     pub motion: Rates,
-    /// Accelerations of the blocks less gravity, or jumps of the blocks' velocities.
+    /// `A = a + (ẍ_g, g + ÿ_g)` of each block's centroid, with `a` relative to the ground (docs/book/model.md, section 4), or the jumps of the blocks' velocities.
     pub change: BlockMotion,
     /// Forces, or impulses, of the contacts on the stacks above, in the axes of the face that carries the contact. Moments are about the centre of a
     /// closed contact, and about the point of a corner.
@@ -247,7 +247,7 @@ fn points(chain: &Chain, joints: &[Joint], centres: &[f64]) -> PerBlock<Vec2> {
     joints.iter().enumerate().map(point).collect()
 }
 
-/// Accelerations of the centroids less gravity that velocities and ground cause `[m/s²]`.
+/// The part of `A` that velocities, gravity and ground cause `[m/s²]`.
 fn imposed(chain: &Chain, velocities: &Rates, ground: Ground) -> PerBlock<Vec2> {
     let mut imposed = chain.imposed(velocities);
     imposed.iter_mut().for_each(|a| *a = [a[0] + ground.x, a[1] + ground.gravity]);

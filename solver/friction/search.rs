@@ -516,7 +516,7 @@ impl<'a> Search<'a> {
         Some(Solution { joints, answer, is_ambiguous })
     }
 
-    /// Whether two answers are different motions.
+    /// Whether the centroids of some block move differently in two answers, by more than [`OTHER_SHARE`] of what is at work.
     fn is_other(&self, one: &Answer, other: &Answer) -> bool {
         let mut pairs = other.change.linear.iter().zip(&one.change.linear);
         pairs.any(|(a, b)| (a[0] - b[0]).abs() + (a[1] - b[1]).abs() > OTHER_SHARE * self.linear)

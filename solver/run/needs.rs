@@ -153,7 +153,7 @@ impl Needs {
         self.is_fresh = false;
     }
 
-    /// Follows which blocks pass their balance, and which come back, in a part of a stretch `[s]` within which no block turns.
+    /// Follows which blocks pass their balance, and which come back, in a part of a stretch `[s]` within which no block reverses its rotation.
     fn follow_balances(&mut self, inside: &mut dyn Inside, start: f64, end: f64) {
         let is_past = past_balance(&inside.state_at(end).0, &self.balances);
         let mut returned: Option<f64> = None;
