@@ -260,6 +260,8 @@ fn keys_that_may_be_one_of_several_are_refused() {
         let message = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.success(), is_clear, "{axis}: {message}");
         assert_eq!(message.contains("one of several keys"), !is_clear, "{axis}: {message}");
+        let own = axis.split(' ').next().expect("a key");
+        assert_eq!(message.contains(&format!("{own}\"\n")) && message.contains("e.g. \""), !is_clear, "{message}");
     }
 }
 

@@ -42,7 +42,13 @@ impl Fate {
             (status, _) if status.overturns() => Fate::Overturns,
             (StopReason::Collapsed, _) => Fate::Collapses,
             (StopReason::Undetermined, _) => Fate::Undetermined,
-            _ if response.motion_at_contacts().is_some() && !rocked() => Fate::Slides,
+            _ if let Some(moved) = response.motion_at_contacts()
+                && !rocked() =>
+            {
+                // A block that lands where it begins, and stays, has neither slid nor rocked.
+                let has_slid = moved.way_slid.iter().any(|way| *way > 0.0);
+                if has_slid { Fate::Slides } else { Fate::NoUplift }
+            }
             (_, true) => Fate::Rocks,
             (_, false) => Fate::NoUplift,
         }

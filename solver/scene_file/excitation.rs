@@ -48,7 +48,7 @@ impl Scales {
 }
 
 /// Largest number of cycles of a type C_n.
-const MOST_CYCLES: u64 = 1_000_000;
+const MOST_CYCLES: f64 = 1e6;
 
 /// Keys of amplitudes.
 const AMPLITUDES: [&str; 3] = ["amplitude", "amplitude_g", "amplitude_uplift"];
@@ -383,12 +383,9 @@ fn pulse(table: &mut Table, kind: &str, scales: Scales) -> Result<Motion, Wrong>
         }
         "type-c" => {
             let (amplitude, omega) = wave()?;
-            let cycles =
-                table.whole("cycles", 1)?.ok_or_else(|| table.missing("cycles", "give n of type C_n, from 1"))?;
-            if cycles > MOST_CYCLES {
-                let remedy = "give a whole number of cycles from 1 to 1e6";
-                return Err(table.wrong("cycles", format!("{cycles} is out of range"), remedy));
-            }
+            let cycles = table
+                .whole_up_to("cycles", 1, MOST_CYCLES)?
+                .ok_or_else(|| table.missing("cycles", "give n of type C_n, from 1"))?;
             Motion::TypeC { amplitude, omega, start, cycles: cycles as u32 }
         }
         "ricker" | "symmetric-ricker" => {

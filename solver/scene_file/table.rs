@@ -363,9 +363,17 @@ impl Table {
 
     /// A whole number from `least` on.
     pub fn whole(&mut self, key: &'static str, least: u32) -> Result<Option<u64>, Wrong> {
+        self.whole_up_to(key, least, LARGEST_WHOLE)
+    }
+
+    /// A whole number from `least` to `most`.
+    pub fn whole_up_to(&mut self, key: &'static str, least: u32, most: f64) -> Result<Option<u64>, Wrong> {
         match self.number(key)? {
-            Some(value) if value.fract() != 0.0 || value < f64::from(least) || value > LARGEST_WHOLE => Err(self
-                .wrong(key, format!("{value} is out of range"), &format!("give a whole number from {least} to 9e15"))),
+            Some(value) if value.fract() != 0.0 || value < f64::from(least) || value > most => Err(self.wrong(
+                key,
+                format!("{value} is out of range"),
+                &format!("give a whole number from {least} to {most:e}"),
+            )),
             found => Ok(found.map(|value| value as u64)),
         }
     }

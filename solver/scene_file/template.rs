@@ -99,16 +99,19 @@ impl Template {
     }
 
     /// Full name of a key. A name with a dot is already full. Otherwise it is the only key of that name in the scene or, without one, the key
-    /// in its usual table. `None` if several keys may be meant: the scene has several of that name, or it has the usual table and the only such
+    /// in its usual table. Several keys may be meant: the scene has several of that name, or it has the usual table and the only such
     /// key in another table (and no item of a list is asked for).
-    pub fn full_name(&self, key: &str) -> Option<String> {
+    ///
+    /// # Errors
+    /// One of the keys that may be meant, if there are several.
+    pub fn full_name(&self, key: &str) -> Result<String, String> {
         if key.contains('.') {
-            return Some(key.into());
+            return Ok(key.into());
         }
         // An item of a list is in the table of the list.
         let (name, item) = key.split_at(key.find('[').unwrap_or(key.len()));
         let table = match name {
-            "title" | "gravity" | "friction" => return Some(key.into()),
+            "title" | "gravity" | "friction" => return Ok(key.into()),
             "blocks" | "half_width" | "bottom_half_width" | "top_half_width" | "half_height" | "centroid_height"
             | "width" | "bottom_width" | "top_width" | "diameter" | "bottom_diameter" | "top_diameter" | "height"
             | "shape" | "depth" | "density" | "mass" | "inertia" => "column",
@@ -122,10 +125,10 @@ impl Template {
             _ => "excitation.horizontal",
         };
         match &self.root.named(name)[..] {
-            [] => Some(format!("{table}.{key}")),
-            [found] if !item.is_empty() || *found == format!("{table}.{name}") => Some(format!("{found}{item}")),
-            [found] if !self.root.has_table(table) => Some(found.clone()),
-            _ => None,
+            [] => Ok(format!("{table}.{key}")),
+            [found] if !item.is_empty() || *found == format!("{table}.{name}") => Ok(format!("{found}{item}")),
+            [found] if !self.root.has_table(table) => Ok(found.clone()),
+            [found, ..] => Err(found.clone()),
         }
     }
 }

@@ -79,7 +79,7 @@ fn copula(
         let wrong = |problem: String, remedy: &str| table.wrong("axes", problem, remedy);
         let place = |name: &String| {
             let full = template.full_name(name);
-            let place = distributed.iter().position(|(axis, ..)| Some(&axis.key) == full.as_ref());
+            let place = distributed.iter().position(|(axis, ..)| full.as_ref() == Ok(&axis.key));
             let known: Vec<&str> = distributed.iter().map(|(axis, ..)| axis.key.as_str()).collect();
             place.ok_or_else(|| {
                 wrong(format!("`{name}` is no distributed axis"), &format!("choose two of {}", known.join(", ")))

@@ -92,7 +92,7 @@ impl Distribution {
 }
 
 fn checked(bounds: [f64; 2], cdf: impl Fn(f64) -> f64) -> Result<(), Refused> {
-    let probability = cdf(bounds[1]) - cdf(bounds[0]);
+    let probability = (cdf(bounds[1]) - cdf(bounds[0])).max(0.0);
     match probability >= LEAST_PROBABILITY {
         true => Ok(()),
         false => Err((

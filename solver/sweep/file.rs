@@ -325,11 +325,13 @@ fn axis(table: &Table, key: &str, path: &str, values: Vec<Setting>, template: &T
     if values.is_empty() {
         return Err(no_values(table, key));
     }
-    let Some(name) = template.full_name(path) else {
-        let remedy = "write the full name in quotes, e.g. \"excitation.horizontal.amplitude_g\"";
-        return Err(table.wrong(key, "it may be one of several keys of the base scene".into(), remedy));
-    };
-    Ok(Axis { key: name, values })
+    match template.full_name(path) {
+        Ok(name) => Ok(Axis { key: name, values }),
+        Err(one) => {
+            let remedy = format!("write the full name in quotes, e.g. \"{one}\"");
+            Err(table.wrong(key, "it may be one of several keys of the base scene".into(), &remedy))
+        }
+    }
 }
 
 /// `{ from, to, steps, scale }`. Without `steps`, there are as many values as at intervals of one, if `to - from` is a whole number.

@@ -68,9 +68,7 @@ fn caption(motion: &DrawnRun, largest: f64) -> String {
         "Energy relative to the moving ground, potential above that of the column at rest; impacts are the drops of the total.",
     );
     if (0..motion.results.column.len()).any(|block| motion.results.shape(block) == Shape::Prism) {
-        caption.push_str(
-            " Of prisms with a density and no depth, masses are per metre of thickness, and so is the energy.",
-        );
+        caption.push_str(" Where the density of prisms is in kg/m², masses and energies are per metre of depth.");
     }
     if motion.falls_at().is_some() {
         caption.push_str(" Curves leave the panel where the column falls.");

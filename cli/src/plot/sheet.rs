@@ -533,6 +533,38 @@ pub fn shortened(text: &str, size: u32, width: f64) -> String {
     kept
 }
 
+/// A list of settings, `name = value, name = value`, cut to at most `width` `[px]`: names first, the longest one first, as the values tell one list from
+/// another.
+pub fn shortened_settings(settings: &str, size: u32, width: f64) -> String {
+    let mut parts: Vec<(&str, String)> = settings
+        .split(", ")
+        .map(|setting| match setting.split_once(" = ") {
+            Some((name, value)) => (name, format!(" = {value}")),
+            None => ("", setting.into()),
+        })
+        .collect();
+    let mut cut = vec![false; parts.len()];
+    let written = |parts: &[(&str, String)], cut: &[bool]| {
+        let setting = |((name, value), is_cut): (&(&str, String), &bool)| {
+            format!("{name}{}{value}", if *is_cut { "…" } else { "" })
+        };
+        parts.iter().zip(cut).map(setting).collect::<Vec<String>>().join(", ")
+    };
+    loop {
+        let text = written(&parts, &cut);
+        let longest = (0..parts.len()).max_by_key(|part| parts[*part].0.chars().count());
+        match longest.filter(|part| parts[*part].0.chars().count() > 1) {
+            Some(part) if text_width(&text, size) > width => {
+                let name = &mut parts[part].0;
+                let end = name.char_indices().next_back().map_or(0, |(end, _)| end);
+                *name = name[..end].trim_end();
+                cut[part] = true;
+            }
+            _ => return shortened(&text, size, width),
+        }
+    }
+}
+
 /// Breaks a text into lines of at most `width` `[px]`. A single word may be wider.
 fn broken(text: &str, size: u32, width: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
@@ -570,6 +602,18 @@ mod tests {
         assert_eq!(shortened(text, style::NOTE, whole), text);
         assert_eq!(shortened(text, style::NOTE, whole - 1.0), "θ₃, block 3 (the second drum…");
         assert_eq!(shortened(text, style::NOTE, whole - 20.0), "θ₃, block 3 (the second dru…");
+    }
+
+    /// Titles of panels differ in their values: of four panels each was called "Friction coeffici…".
+    #[test]
+    fn settings_keep_their_values_as_long_as_there_is_room() {
+        let text = "Friction coefficient = 0.3, Density of block 2 = 2000, north.csv";
+        let whole = text_width(text, style::LABEL);
+        let cut = |share: f64| shortened_settings(text, style::LABEL, share * whole);
+        assert_eq!(cut(1.0), text);
+        assert_eq!(cut(0.75), "Friction c… = 0.3, Density o… = 2000, north.csv");
+        assert_eq!(cut(0.4), "F… = 0.3, D… = 2000, nor…");
+        assert_eq!(cut(0.5), "Fr… = 0.3, D… = 2000, north.csv");
     }
 
     #[test]

@@ -15,7 +15,7 @@ use rocking::column::Shape;
 use rocking::pattern::Pattern;
 use rocking::run_folder::Results;
 use rocking::{Block, Column, EventKind, StopReason};
-use serde_json::json;
+use serde_json::{Value, json};
 use std::fmt::Write as _;
 
 /// More rows than this are thinned: a page of a few megabytes opens on a phone, one of a hundred does not.
@@ -154,8 +154,7 @@ impl Ground {
         let (mut displacement, mut drift) = (vec![[0.0; 2]; rows.len()], [0.0; 2]);
         for axis in 0..2 {
             let accelerations: Vec<f64> = rows.iter().map(|row| row.ground[axis]).collect();
-            let kind = &results.excitation[["horizontal", "vertical"][axis]]["kind"];
-            let is_pulse = !["record", "synthetic", "harmonic", "sum"].iter().any(|drifting| kind == drifting);
+            let is_pulse = is_pulse(&results.excitation[["horizontal", "vertical"][axis]]);
             let own = integrated(&times, &accelerations, is_pulse);
             drift[axis] = drift_of(&times, &own, is_pulse);
             // Accelerations read from a folder may be too large to integrate.
@@ -177,6 +176,14 @@ impl Ground {
         let share = if dt > 0.0 { ((t - rows[before].t) / dt).clamp(0.0, 1.0) } else { 1.0 };
         let between = |a: [f64; 2], b: [f64; 2]| [0, 1].map(|axis| a[axis] + share * (b[axis] - a[axis]));
         [between(rows[before].ground, rows[index].ground), between(self.displacement[before], self.displacement[index])]
+    }
+}
+
+/// Whether a ground motion is a pulse, or a sum of pulses: its velocity at the end is no drift of a record.
+fn is_pulse(motion: &Value) -> bool {
+    match (motion["kind"].as_str(), motion["terms"].as_array()) {
+        (Some("sum"), Some(terms)) => terms.iter().all(is_pulse),
+        (kind, _) => !matches!(kind, Some("record" | "synthetic" | "harmonic" | "sum")),
     }
 }
 

@@ -120,18 +120,24 @@ fn places(results: &Results) -> String {
         return "<p>Friction holds: no block slides or flies.</p>\n".into();
     }
     let moved: Vec<usize> = (0..results.column.len()).filter(|&interface| report.has_moved(interface)).collect();
+    let first = results.response.samples.first();
     let slid = moved.iter().filter(|&&interface| report.way_slid[interface] > 0.0);
     let way: Vec<String> = slid
-        .map(|&interface| format!("interface {} by {}", interface + 1, centimetres(report.way_slid[interface])))
+        .map(|&interface| {
+            let way = report.way_slid[interface];
+            let start = first.and_then(|row| row.slide.get(interface)).copied().unwrap_or_default();
+            let is_reversed = way > (report.residual_slide[interface] - start).abs() + SMALLEST_SLIDE;
+            format!(
+                "interface {} by {}{}",
+                interface + 1,
+                centimetres(way),
+                if is_reversed { " to and fro" } else { "" }
+            )
+        })
         .collect();
     let mut parts = Vec::new();
     if !way.is_empty() {
-        let turned = |&interface: &usize| {
-            let start = results.column.slides()[interface];
-            report.way_slid[interface] > (report.residual_slide[interface] - start).abs() + SMALLEST_SLIDE
-        };
-        let (how, all) = if moved.iter().any(turned) { (" to and fro", " in all") } else { ("", "") };
-        parts.push(format!("Slid{how}: {}{all}.", way.join(", ")));
+        parts.push(format!("Slid: {}.", way.join(", ")));
     }
     let flights: usize = report.flights.iter().sum();
     if flights > 0 {

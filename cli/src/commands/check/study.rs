@@ -51,7 +51,8 @@ pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
         return json(&findings);
     }
     let mut text = format!("{}: a valid study of {} run(s)\n", shown(path), findings.runs);
-    let [first, last] = [0, findings.levels.len() - 1].map(|level| significant(findings.levels[level], 5));
+    let [first, last] = [f64::min, f64::max].map(|further| findings.levels.iter().copied().reduce(further));
+    let [first, last] = [first, last].map(|level| significant(level.unwrap_or(f64::NAN), 5));
     let label = ida.intensity().label();
     let _ = writeln!(text, "  {label}: {} level(s), from {first} to {last}", findings.levels.len());
     let _ = writeln!(text, "  {} record(s), scaled by", findings.records.len());

@@ -12,7 +12,7 @@ use crate::number::counted;
 use crate::plot::curve::{self, Frame, Point};
 use crate::plot::ida::{FRACTILE_LINES, RECORD};
 use crate::plot::paper::Paper;
-use crate::plot::sheet::{Anchor, Figure, Key, LEFT, RIGHT, Sheet, shortened};
+use crate::plot::sheet::{Anchor, Figure, Key, LEFT, RIGHT, Sheet, shortened_settings};
 use crate::plot::style::{self, Stroke};
 use rocking::studies::{FRACTILES, fractile};
 
@@ -143,7 +143,7 @@ pub fn draw(points: &Points, family: &Family, measure: &Measure, paper: &Paper) 
         }
         place.axes(&mut sheet, [number + columns >= panels.len(), column == 0]);
         if panels.len() > 1 {
-            let title = shortened(&family.titles[number], style::LABEL, width);
+            let title = shortened_settings(&family.titles[number], style::LABEL, width);
             sheet.words([frame.left + 0.5 * width, frame.top - 8.0], &title, style::LABEL, Anchor::Middle);
         }
         if column == 0 {

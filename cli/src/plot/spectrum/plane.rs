@@ -7,7 +7,7 @@ use super::place::{GAP, NUMBERS, Place, TITLE, line};
 use crate::number::percent;
 use crate::plot::curve::{self, Frame, Point};
 use crate::plot::paper::Paper;
-use crate::plot::sheet::{Anchor, Figure, Key, LEFT, RIGHT, Sheet, shortened};
+use crate::plot::sheet::{Anchor, Figure, Key, LEFT, RIGHT, Sheet, shortened_settings};
 use crate::plot::style::{self, Stroke};
 
 /// Largest number of panels beside one another: with more, cells of a usual sweep are smaller than a pixel.
@@ -42,7 +42,7 @@ pub fn spectrum(grid: &Grid, paper: &Paper) -> Figure {
         let place = Place { frame, x, y, top_name: "" };
         sheet.words(
             [frame.left + 0.5 * width, frame.top - 8.0],
-            &shortened(title, style::LABEL, width),
+            &shortened_settings(title, style::LABEL, width),
             style::LABEL,
             Anchor::Middle,
         );

@@ -10,7 +10,7 @@ use super::scale::Scale;
 use crate::number::percent;
 use crate::plot::curve::Frame;
 use crate::plot::paper::Paper;
-use crate::plot::sheet::{Anchor, Figure, Key, LEFT, RIGHT, Sheet, shortened};
+use crate::plot::sheet::{Anchor, Figure, Key, LEFT, RIGHT, Sheet, shortened_settings};
 use crate::plot::style;
 
 /// Height of a strip `[px]`.
@@ -42,7 +42,12 @@ pub fn draw(points: &Points, family: &Family, paper: &Paper) -> Figure {
             here.map(|(_, class)| class).max_by_key(order).unwrap_or(Class::Error)
         };
         let strip: Vec<Class> = x.values.iter().map(|value| at(*value)).collect();
-        sheet.words([frame.left, frame.top - 7.0], &shortened(title, style::LABEL, width), style::LABEL, Anchor::Start);
+        sheet.words(
+            [frame.left, frame.top - 7.0],
+            &shortened_settings(title, style::LABEL, width),
+            style::LABEL,
+            Anchor::Start,
+        );
         cells(&mut sheet, &place, &strip);
         place.axes(&mut sheet, [number + 1 == family.titles.len(), false]);
         strips.push(strip);
