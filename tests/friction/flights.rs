@@ -27,6 +27,45 @@ fn blocks_fly_and_land_together() {
     }
 }
 
+/// Two blocks fly, and the upper one, which turns at 1 rad/s, leans past the lower one at 0.1 s: the flight belongs to one mode before and to another after. The
+/// whole flight had counted under the pattern at its start.
+#[test]
+fn a_flight_counts_under_the_mode_of_each_of_its_moments() {
+    let mut scene = scene(vec![Block::rectangle(0.3, 0.5, 1.0); 2], vec![0.5; 2]);
+    (scene.initial.theta, scene.initial.omega) = (vec![0.1, 0.0], vec![0.0, 1.0]);
+    (scene.initial.x, scene.initial.y) = (vec![0.0; 2], vec![3.0, 6.0]);
+    (scene.initial.vx, scene.initial.vy) = (vec![0.0; 2], vec![0.0; 2]);
+    scene.options.t_end = 0.5;
+    for method in [Method::Taylor, Method::Dop853] {
+        scene.options.method = method;
+        let times = run(&scene).time_in_mode;
+        assert_relative_eq!(times["1.3"], 0.1, max_relative = 1e-9);
+        assert_relative_eq!(times["1.1"], 0.4, max_relative = 1e-9);
+    }
+}
+
+/// Blocks of 4 m that turn by some radians in a step: the gap is not concave in time. The largest was that of the nearest row, up to 2.7 % too low.
+#[test]
+fn the_highest_flight_does_not_depend_on_rows() {
+    let blocks = [[1.665, 2.125], [2.073, 1.844], [2.285, 2.629]].map(|[b, h]| Block::rectangle(b, h, 1.0)).to_vec();
+    let mut scene = scene(blocks, vec![0.6; 3]);
+    (scene.initial.theta, scene.initial.omega) = (vec![0.0, 0.4468, -0.0796], vec![10.94, -26.76, 30.12]);
+    (scene.initial.x, scene.initial.y) = (vec![0.269, 0.922, 1.239], vec![4.613, 10.294, 17.768]);
+    (scene.initial.vx, scene.initial.vy) = (vec![-0.684, 1.871, 1.338], vec![4.18, 7.262, 1.33]);
+    (scene.options.t_end, scene.options.overturn_angle) = (0.5, 3.14);
+    let mut highest = |dt: f64| {
+        scene.output_dt = Some(dt);
+        let response = run(&scene);
+        let in_rows = response.samples.iter().flat_map(|row| row.gap.iter().copied()).fold(0.0, f64::max);
+        (response.sliding.expect("friction").highest_flight, in_rows)
+    };
+    let (usual, _) = highest(0.01);
+    let (with_dense_rows, in_rows) = highest(2e-5);
+    assert_eq!(usual, with_dense_rows);
+    // The gap has a kink there, with slopes of some 30 m/s; rows are 20 µs apart.
+    assert!(in_rows <= usual && in_rows > usual - 30.0 * 2e-5, "{in_rows}, {usual}");
+}
+
 /// A rocking block whose weight vanishes by some 1e-5 of itself for a moment: parabolas through its normal force, which steps of different lengths place
 /// elsewhere, showed a force that stays positive at half of the tolerances.
 #[test]

@@ -47,6 +47,9 @@ pub trait StepInside<'p>: Snapshots<'p> {
 
     /// The largest gap of a free interface up to a time `[s]`, or `so_far` if that is larger `[m]`.
     fn highest_gap(&mut self, until: f64, interface: usize, so_far: f64) -> f64;
+
+    /// Visits the times up to `until` at which the relative angle at an interface changes its sign `[s]`.
+    fn sign_changes(&mut self, until: f64, interface: usize, visit: &mut dyn FnMut(f64));
 }
 
 /// A node of the quadrature over a step.
@@ -75,6 +78,8 @@ pub struct SlidingRecorder<'p> {
     /// Normal force above which a contact has a friction demand, per interface `[N]`.
     least_normal_force: PerBlock<f64>,
     time_in_mode: BTreeMap<String, f64>,
+    /// Times of the stretch so far at which the upper block of a free interface leans to the other side, with the interface: the mode is another from there.
+    leanings: Vec<(f64, usize)>,
     /// [`Response::used_generic`] of some part in which everything sticks.
     used_generic: bool,
     report: SlidingReport,
@@ -99,6 +104,7 @@ impl<'p> SlidingRecorder<'p> {
                 .map(|i| LIGHT_SHARE * problem.scene.column.mass_above(i) * problem.scene.column.gravity())
                 .collect(),
             time_in_mode: BTreeMap::new(),
+            leanings: Vec::new(),
             used_generic: false,
             report: SlidingReport {
                 peak_slide: slide.iter().map(|slide| slide.abs()).collect(),
@@ -268,7 +274,19 @@ impl<'p> SlidingRecorder<'p> {
     pub fn leave(&mut self, from: &SlidingState, until: &SlidingState) {
         let span = until.t - from.t;
         let (now, end, size) = (&from.configuration, &until.configuration, self.column().size());
-        *self.time_in_mode.entry(ModeName::of(&now.pattern()).to_string()).or_insert(0.0) += span;
+        let (mut pattern, mut since) = (now.pattern(), from.t);
+        let mut add = |pattern: &Pattern, span: f64| {
+            *self.time_in_mode.entry(ModeName::of(pattern).to_string()).or_insert(0.0) += span;
+        };
+        self.leanings.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (t, interface) in self.leanings.drain(..) {
+            if t > since {
+                add(&pattern, t - since);
+            }
+            pattern.0[interface] = pattern.0[interface].mirror();
+            since = t;
+        }
+        add(&pattern, until.t - since);
         let SlidingReport { times, way_slid, peak_slide, flights, .. } = &mut self.report;
         for (interface, times) in times.iter_mut().enumerate() {
             match now.joints[interface].slip() {
@@ -328,6 +346,7 @@ impl<'p> SlidingRecorder<'p> {
         for (interface, joint) in joints.iter().enumerate() {
             match joint {
                 Joint::Free => {
+                    inside.sign_changes(until, interface, &mut |t| self.leanings.push((t, interface)));
                     self.report.highest_flight = inside.highest_gap(until, interface, self.report.highest_flight);
                 }
                 joint => self.forces(interface, *joint, until, inside),
@@ -371,7 +390,6 @@ impl<'p> SlidingRecorder<'p> {
         };
         let blocks = now.theta.len();
         let gaps: PerBlock<f64> = (0..blocks).map(gap).collect();
-        self.report.highest_flight = gaps.iter().fold(self.report.highest_flight, |most, gap| most.max(*gap));
         let motion = chain.motion(&Rates::of(now));
         let state = |block: usize| BlockState {
             place: chain.centroid(block),

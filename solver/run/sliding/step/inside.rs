@@ -80,29 +80,62 @@ impl<'p, O: Output> StepInside<'p> for Step<'_, 'p, O> {
         so_far: [f64; 2],
         quantities: [&dyn Fn(&ContactForce) -> f64; 2],
     ) -> [f64; 2] {
-        let end = self.place(until);
-        let forces = places(end).map(|s| self.contact_at(s, interface));
+        let span = [0.0, self.place(until)];
+        let forces = places(span).map(|s| self.contact_at(s, interface));
         [0, 1].map(|k| {
             let of = |force: &Option<ContactForce>| force.as_ref().map_or(f64::NEG_INFINITY, quantities[k]);
-            highest(|s| of(&self.contact_at(s, interface)), forces.each_ref().map(of), end, so_far[k])
+            highest(|s| of(&self.contact_at(s, interface)), forces.each_ref().map(of), span, so_far[k])
         })
     }
 
     fn highest_gap(&mut self, until: f64, interface: usize, so_far: f64) -> f64 {
         let end = self.place(until);
+        let blocks = interface.saturating_sub(1)..=interface;
+        let rotation = blocks.map(|block| self.rotation(end, block).abs());
+        let panels = 1.0 + (rotation.fold(0.0, f64::max) / PANEL_ROTATION).floor();
+        let highest_of = |gap: &mut dyn FnMut(f64) -> f64| {
+            (0..panels as usize).fold(so_far, |so_far, panel| {
+                let span = [panel, panel + 1].map(|edge| end * edge as f64 / panels);
+                let values = places(span).map(&mut *gap);
+                highest(&mut *gap, values, span, so_far)
+            })
+        };
         let Some(span) = self.output.series() else {
-            let mut gap = |s: f64| {
+            return highest_of(&mut |s| {
                 self.output.state(s, &mut self.state);
                 contacts::gap(self.smooth.column, &self.smooth.configuration(&self.state), interface)
-            };
-            let values = places(end).map(&mut gap);
-            return highest(gap, values, end, so_far);
+            });
         };
         let corners: Vec<_> = Corner::all(interface).map(|corner| span.corner_path(corner)).collect();
         let position =
             |([along, above], reach): &([Powers; 2], f64), s: f64| [along.evaluate(s).abs() - reach, above.evaluate(s)];
-        let gap = |s: f64| contacts::least_distance(corners.iter().map(|corner| position(corner, s)));
-        highest(gap, places(end).map(gap), end, so_far)
+        highest_of(&mut |s| contacts::least_distance(corners.iter().map(|corner| position(corner, s))))
+    }
+
+    fn sign_changes(&mut self, until: f64, interface: usize, visit: &mut dyn FnMut(f64)) {
+        let (t, h, places) = (self.t, self.h, places([0.0, self.place(until)]));
+        let angle = |span: &SeriesSpan, block: Option<usize>| block.map(|block| span.angle(block));
+        let angles = self
+            .output
+            .series()
+            .map(|span| [Some(interface), interface.checked_sub(1)].map(|block| angle(span, block)));
+        let mut is_negative = |s: f64| match &angles {
+            Some(angles) => {
+                let [own, below] = angles.each_ref().map(|angle| angle.as_ref().map_or(0.0, |angle| angle.evaluate(s)));
+                own < below
+            }
+            None => self.at(s, false).configuration.relative_angle(interface) < 0.0,
+        };
+        let signs = places.map(&mut is_negative);
+        for own in (1..PLACES).filter(|own| signs[own - 1] != signs[*own]) {
+            let [mut low, mut high] = [places[own - 1], places[own]];
+            for _ in 0..HALVINGS_TO_CHANGE {
+                let middle = 0.5 * (low + high);
+                *(if is_negative(middle) == signs[own] { &mut high } else { &mut low }) = middle;
+            }
+            // From a start at zero on, this is the start itself.
+            visit(t + h * low);
+        }
     }
 }
 
@@ -110,6 +143,17 @@ impl<O: Output> Step<'_, '_, O> {
     /// The place in the step of a time `[s]`, 0 to 1.
     fn place(&self, t: f64) -> f64 {
         ((t - self.t) / self.h).clamp(0.0, 1.0)
+    }
+
+    /// The rotation of a block from the start of the step to a place `[rad]`.
+    fn rotation(&mut self, s: f64, block: usize) -> f64 {
+        match self.output.series().map(|span| span.angle(block)) {
+            Some(angle) => angle.evaluate(s) - angle.evaluate(0.0),
+            None => {
+                let [end, start] = [s, 0.0].map(|s| self.at(s, false).configuration.theta[block]);
+                end - start
+            }
+        }
     }
 
     /// Contact forces at a place of the step, by interface; zero if the equations of the states are singular.
@@ -150,18 +194,24 @@ impl<O: Output> Step<'_, '_, O> {
 /// Places at which a quantity is sampled over a step.
 const PLACES: usize = 5;
 
-/// These places, from the start of the step to the place `end`.
-fn places(end: f64) -> [f64; PLACES] {
-    std::array::from_fn(|index| end * index as f64 / (PLACES - 1) as f64)
+/// These places, over a part of the step.
+fn places([from, until]: [f64; 2]) -> [f64; PLACES] {
+    std::array::from_fn(|index| from + (until - from) * index as f64 / (PLACES - 1) as f64)
 }
+
+/// Rotation of a flying block `[rad]` beyond which a step is searched in panels for its largest gap. Within it, gaps are concave in time but for little.
+const PANEL_ROTATION: f64 = 0.5;
+
+/// Halvings in which a change of sign is enclosed: to `2^-40`, 1e-12 of the step.
+const HALVINGS_TO_CHANGE: usize = 40;
 
 /// Rounds in which a crest is enclosed by the golden section: the place is found to `0.618^40`, `4e-9` of the step.
 const ROUNDS_TO_CREST: usize = 40;
 
-/// The largest value of a quantity over the step up to the place `end`, or `so_far` if that is larger; `values` are those at [`places`]. It is at an end, or at
+/// The largest value of a quantity over a part of the step, or `so_far` if that is larger; `values` are those at [`places`]. It is at an end, or at
 /// a crest beside the highest of them, found by the golden section. Gaps of flying corners over a face are concave in time but for their rotation, and so is
 /// the lowest of them, which has kinks; beside a face the gap grows with the distance. Forces are smooth, and steps short beside their changes.
-fn highest(mut value: impl FnMut(f64) -> f64, values: [f64; PLACES], end: f64, so_far: f64) -> f64 {
+fn highest(mut value: impl FnMut(f64) -> f64, values: [f64; PLACES], span: [f64; 2], so_far: f64) -> f64 {
     let most = (1..PLACES).fold(0, |most, own| if values[own] > values[most] { own } else { most });
     let so_far = so_far.max(values[most]);
     // The crest is beside this place, and no higher than the chords from one side continued to the other.
@@ -170,7 +220,7 @@ fn highest(mut value: impl FnMut(f64) -> f64, values: [f64; PLACES], end: f64, s
     if bound <= so_far {
         return so_far;
     }
-    let [mut low, mut high] = [middle - 1, middle + 1].map(|index| places(end)[index]);
+    let [mut low, mut high] = [middle - 1, middle + 1].map(|index| places(span)[index]);
     let share = 0.5 * (5f64.sqrt() - 1.0);
     let mut inner = [high - share * (high - low), low + share * (high - low)];
     let mut heights = inner.map(&mut value);
