@@ -4,7 +4,7 @@
 //! ```text
 //! x⁻  <- the run without sliding, as far as friction holds         sticking.rs
 //! loop
-//!     x⁺  <- impact or acceleration, searched for                  transition.rs, impact.rs, contacts.rs, friction/search.rs
+//!     x⁺  <- impact or acceleration, searched for                  transition.rs, impact.rs, joining.rs, friction/search.rs
 //!     x⁻  <- if moving and all sticks: the run without sliding     sticking.rs
 //!            otherwise: rest, or steps until a guard is zero       mover.rs, steps.rs, step.rs
 //!            rows, peaks, forces, work on the way                  recorder.rs
@@ -15,6 +15,7 @@
 mod contacts;
 mod explicit_steps;
 mod impact;
+mod joining;
 mod low_motion;
 mod mover;
 mod recorder;
