@@ -18,6 +18,7 @@ mod impact;
 mod joining;
 mod low_motion;
 mod mover;
+mod outlook;
 mod recorder;
 mod series_steps;
 mod smooth;

@@ -1,6 +1,7 @@
 //! The recorder of a run with friction: the only writer of rows, events, peaks, forces, work and times.
 
 use super::contacts::{self, slide};
+use super::outlook;
 use super::smooth::{Smooth, Snapshot};
 use super::state::{RunEnd, SlidingState};
 use super::transition::{Change, SlidingTransition};
@@ -413,48 +414,6 @@ impl<'p> SlidingRecorder<'p> {
         });
     }
 
-    /// Whether some block is in flight, or slides so fast that it will go on visibly.
-    fn slides_on(&self, now: &Configuration) -> bool {
-        let goes_on = |interface: usize| match now.joints[interface].slip() {
-            None => true,
-            Some(Slip::Sticks) => false,
-            Some(Slip::Slides(_)) => {
-                let rate = now.slide_rate[interface];
-                let least = VISIBLE_WAY * self.column().size() * self.column().gravity();
-                rate * rate > 2.0 * self.friction.kinetic[interface] * least
-            }
-        };
-        (0..now.joints.len()).any(goes_on)
-    }
-
-    /// Whether the column is past its balance or, on a ground that rests from now on, has the energy to get there: with the blocks displaced as they are at
-    /// the end, or as far as slides and flights on other blocks may go on, by the energy that there is. A block that is off its support then has no balance.
-    fn may_overturn(&self, now: &Configuration) -> bool {
-        let (column, slides) = (self.column(), &self.report.residual_slide);
-        let options = &self.problem.scene.options;
-        let barrier = |slides: Vec<f64>| Some(column.clone().displaced(slides).ok()?.barrier(options.overturn_angle));
-        if self.problem.scene.excitation.moves_after(options.t_end) {
-            return barrier(slides.clone()).is_none_or(|barrier| barrier.is_left(&now.theta));
-        }
-        let above_rest = energy(column, now) - rest::energy(column).potential;
-        let farther = |(interface, slide): (usize, &f64)| {
-            // The weight that stops the slide is taken for the normal force; a flight with this energy goes no farther than twice the share.
-            let share = above_rest / (column.mass_above(interface) * column.gravity());
-            let stopped = share / self.friction.kinetic[interface];
-            match (interface, now.joints[interface].slip()) {
-                (0, _) => *slide,
-                (_, Some(slip)) if slip.sign() == 0.0 => *slide,
-                (_, Some(slip)) => slide + slip.sign() * stopped,
-                (_, None) => slide + now.apart_rate[interface][0].signum() * (2.0 * share + stopped),
-            }
-        };
-        let farthest = slides.iter().enumerate().map(farther).collect();
-        let may_be_passed = |slides: Vec<f64>| {
-            barrier(slides).is_none_or(|barrier| barrier.is_left(&now.theta) || barrier.is_within_reach(above_rest))
-        };
-        may_be_passed(slides.clone()) || may_be_passed(farthest)
-    }
-
     /// The response of a run that ends in a state.
     pub fn finish(mut self, end: SlidingState, stop: RunEnd, steps: Work) -> Response {
         self.work.add(&steps);
@@ -479,8 +438,13 @@ impl<'p> SlidingRecorder<'p> {
         if self.problem.is_recorded() {
             self.report.energy_change = energy(self.column(), now) - self.energy_at_start;
         }
-        let may_overturn = status == StopReason::EndOfTime && self.may_overturn(now);
-        let slides_on = status == StopReason::EndOfTime && self.slides_on(now);
+        let is_cut = status == StopReason::EndOfTime;
+        let may_overturn = || {
+            let above_rest = energy(self.column(), now) - rest::energy(self.column()).potential;
+            outlook::may_overturn(self.problem, self.friction, now, &self.report.residual_slide, above_rest)
+        };
+        let (may_overturn, slides_on) =
+            (is_cut && may_overturn(), is_cut && outlook::slides_on(self.column(), self.friction, now));
         let mut response = self.log.into_response(status, end.t);
         (response.may_overturn, response.slides_on) = (may_overturn, slides_on);
         match stop {
@@ -493,9 +457,6 @@ impl<'p> SlidingRecorder<'p> {
         response
     }
 }
-
-/// Way that a slide has to go until friction under the weight has stopped it, as a share of the column's size, up to which it counts as ended.
-const VISIBLE_WAY: f64 = 1e-6;
 
 /// Way of a slide, as a share of the column's size, up to which nothing has slid but rounding.
 const CRITICAL_WAY: f64 = 1e-13;

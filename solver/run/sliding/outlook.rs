@@ -1,0 +1,55 @@
+//! What is open where `t_end` cuts a run in which blocks slide or fly: whether they go on, and whether the column may still overturn.
+
+use crate::column::Column;
+use crate::friction::contact_problem::Coefficients;
+use crate::friction::joint::{Configuration, Slip};
+use crate::run::problem::Problem;
+
+/// Way that a slide has to go until friction under the weight has stopped it, as a share of the column's size, up to which it counts as ended.
+const VISIBLE_WAY: f64 = 1e-6;
+
+/// Whether some block is in flight, or slides so fast that it will go on visibly.
+pub fn slides_on(column: &Column, friction: &Coefficients, now: &Configuration) -> bool {
+    let goes_on = |interface: usize| match now.joints[interface].slip() {
+        None => true,
+        Some(Slip::Sticks) => false,
+        Some(Slip::Slides(_)) => {
+            let rate = now.slide_rate[interface];
+            rate * rate > 2.0 * friction.kinetic[interface] * VISIBLE_WAY * column.size() * column.gravity()
+        }
+    };
+    (0..now.joints.len()).any(goes_on)
+}
+
+/// Whether the column is past its balance or, on a ground that rests from now on, has the energy to get there: with the blocks displaced by these `slides`
+/// `[m]`, as they are at the end, or as far as slides and flights on other blocks may go on, by the energy that there is. A block that is off its support then
+/// has no balance. `above_rest` is the energy above that of the column at rest `[J]`.
+pub fn may_overturn(
+    problem: &Problem,
+    friction: &Coefficients,
+    now: &Configuration,
+    slides: &[f64],
+    above_rest: f64,
+) -> bool {
+    let (column, options) = (&problem.scene.column, &problem.scene.options);
+    let barrier = |slides: Vec<f64>| Some(column.clone().displaced(slides).ok()?.barrier(options.overturn_angle));
+    if problem.scene.excitation.moves_after(options.t_end) {
+        return barrier(slides.to_vec()).is_none_or(|barrier| barrier.is_left(&now.theta));
+    }
+    let farther = |(interface, slide): (usize, &f64)| {
+        // The weight that stops the slide is taken for the normal force; a flight with this energy goes no farther than twice the share.
+        let share = above_rest / (column.mass_above(interface) * column.gravity());
+        let stopped = share / friction.kinetic[interface];
+        match (interface, now.joints[interface].slip()) {
+            (0, _) => *slide,
+            (_, Some(slip)) if slip.sign() == 0.0 => *slide,
+            (_, Some(slip)) => slide + slip.sign() * stopped,
+            (_, None) => slide + now.apart_rate[interface][0].signum() * (2.0 * share + stopped),
+        }
+    };
+    let farthest = slides.iter().enumerate().map(farther).collect();
+    let may_be_passed = |slides: Vec<f64>| {
+        barrier(slides).is_none_or(|barrier| barrier.is_left(&now.theta) || barrier.is_within_reach(above_rest))
+    };
+    may_be_passed(slides.to_vec()) || may_be_passed(farthest)
+}
