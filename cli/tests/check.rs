@@ -292,6 +292,16 @@ fn a_ratio_that_friction_cannot_give_is_noted() {
     }
 }
 
+/// A density in t/m³ makes a column of kilograms.
+#[test]
+fn drums_lighter_than_any_stone_are_noted() {
+    for (density, is_noted) in [("2.7", true), ("2700", false)] {
+        let scene = format!("[column]\nblocks = 3\ndiameter = 1.2\nheight = 6.0\ndensity = {density}\n");
+        let told = Folder::with("scene.toml", &scene).succeeds("check scene.toml");
+        assert_eq!(told.contains("note: a drum has 2.7 kg/m³, and stone 1500 to 3000"), is_noted, "{told}");
+    }
+}
+
 #[test]
 fn a_column_taller_than_any_is_noted() {
     for (half_height, is_noted) in [(29.0, false), (35.0, true)] {

@@ -18,7 +18,7 @@ impl ModeLabel {
     /// # Errors
     /// `None` if the text is not two whole numbers above zero joined by a point.
     pub fn parse(text: &str) -> Option<ModeLabel> {
-        let (lowest, number) = text.split_once('.')?;
+        let (lowest, number) = text.split_once('.').filter(|(lowest, _)| !lowest.starts_with('+'))?;
         let label = ModeLabel { lowest: lowest.parse().ok()?, number: ModeNumber::parse(number)? };
         (label.lowest > 0).then_some(label)
     }
@@ -173,7 +173,9 @@ mod tests {
     fn a_number_beyond_those_of_a_column_has_no_pattern() {
         assert!(ModeLabel::parse("1.9").is_some_and(|label| label.pattern(3).is_some()));
         assert!(ModeLabel::parse("1.10").is_some_and(|label| label.pattern(3).is_none()));
-        assert!(["1.0", "0.1", "1.", "1.-1", "1.+1", ".1", "1"].iter().all(|text| ModeLabel::parse(text).is_none()));
+        assert!(
+            ["1.0", "0.1", "1.", "1.-1", "1.+1", "+1.1", ".1", "1"].iter().all(|text| ModeLabel::parse(text).is_none())
+        );
         assert_eq!(ModeLabel::parse(&format!("1.{}", "9".repeat(60))), None);
     }
 }

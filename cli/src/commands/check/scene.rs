@@ -6,7 +6,8 @@ use crate::ground_in_words;
 use crate::number::{self, coefficients, fixed, significant, widths};
 use crate::terminal::{json, print, warn};
 use crate::text::{printable, shown};
-use rocking::scene::Initial;
+use rocking::column::Shape;
+use rocking::scene::{Initial, Look};
 use rocking::scene_file::{Derived, SceneFile};
 use rocking::{Block, Column, Friction, Motion, Restitution, Scene};
 use serde::{Serialize, Serializer};
@@ -176,6 +177,9 @@ struct MotionFindings {
 /// Height above which a column has most likely been given in cm or mm `[m]`. The tallest columns of stone have some thirty.
 const TALL: f64 = 60.0;
 
+/// Density of drums below which a note says so `[kg/m³]`: wood has more.
+const LIGHT: f64 = 300.0;
+
 /// Serialises the description of a motion, without the samples of records.
 fn described<S: Serializer>(motion: &Motion, serializer: S) -> Result<S::Ok, S::Error> {
     motion.description().serialize(serializer)
@@ -279,6 +283,18 @@ impl Findings {
         );
         if whole.stack.height > TALL {
             text.push_str("note: no column is as tall; sizes are in m\n");
+        }
+        let density = |(block, look): (&Block, &Look)| {
+            let volume = look.shape.measure([block.bottom_half_width, block.top_half_width], block.half_height);
+            (look.shape == Shape::Drum).then(|| block.mass / volume)
+        };
+        let lightest = self.blocks.iter().zip(&scene.looks).filter_map(density).reduce(f64::min);
+        if let Some(density) = lightest.filter(|density| *density < LIGHT) {
+            let density = significant(density, 4);
+            let _ = writeln!(
+                text,
+                "note: a drum has {density} kg/m³, and stone 1500 to 3000; densities are in kg/m³, masses in kg"
+            );
         }
         self.table_of_blocks(text);
         self.table_of_stacks(text, gravity);
