@@ -482,7 +482,9 @@ impl Response {
     /// Impacts that are plastic in a scene with restitution.
     fn warning_of_restitution(&self) -> String {
         let reasons = match &self.sliding {
-            Some(_) => "friction is too low, or the impact would gain energy or turn a block back",
+            Some(_) => {
+                "friction is too low, a contact would have to pull, or the impact would gain energy or turn a block back"
+            }
             None => "the impact would gain energy or turn a block back",
         };
         format!(

@@ -213,7 +213,7 @@ fn responses_hold_what_was_asked_for() {
 /// Dormand and Prince's method of order 5 is called `dopri5` in Fortran and `rk45` in SciPy. `rk45` was taken for a misspelling of `rk4`.
 #[test]
 fn methods_have_the_names_of_other_programs() {
-    for name in ["dormand-prince54", "dopri5", "rk45"] {
+    for name in ["dormand-prince54", "dopri5", "rk45", "RK45"] {
         assert_eq!(rocking::Method::parse(name), Some(rocking::Method::DormandPrince54), "{name}");
     }
 }

@@ -225,8 +225,8 @@ fn slides_are_drawn_where_something_slides() {
     assert!(!folder.page().contains("figure-slides"));
 }
 
-/// A block at 0.5 m/s slides v²/(2 μ g) = 4.247 cm: to one side, also where `x` places it 4 cm to the left at the start. One under a pulse of two rectangles slides
-/// to and fro, and its ground ends at rest, also where the pulse is the only term of a sum.
+/// A block at 0.5 m/s slides v²/(2 μ g) = 4.247 cm: to one side, also where `x` places it 4 cm to the left at the start. One under a pulse of two
+/// rectangles slides to and fro, and its ground ends at rest, also where the pulse is the only term of a sum.
 #[test]
 fn the_report_says_which_blocks_slid_to_and_fro() {
     let block = "friction = 0.3\n[[block]]\nhalf_width = 0.8\nhalf_height = 0.5\n";
@@ -234,8 +234,11 @@ fn the_report_says_which_blocks_slid_to_and_fro() {
     let pulse = "kind = \"double-rectangular\"\namplitude_g = 0.9\nduration = 0.5\n[output]\ndt = 0.02\n";
     let own = format!("{block}[excitation.horizontal]\n{pulse}");
     let sum = format!("{block}[excitation.horizontal]\nkind = \"sum\"\n[[excitation.horizontal.term]]\n{pulse}");
+    let later = "[output]\ntimes = [0.12, 0.2, 1.0]\n";
     for (scene, told) in [
         (format!("{block}{placed}"), "Slid: interface 1 by 4.25&nbsp;cm."),
+        // Without a row at the start.
+        (format!("{block}{placed}{later}"), "Slid: interface 1 by 4.25&nbsp;cm."),
         (own, "cm to and fro."),
         (sum, "cm to and fro."),
     ] {

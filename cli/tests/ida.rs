@@ -192,6 +192,11 @@ fn tables_and_figures_do_not_depend_on_threads_and_fragility_reads_them_again() 
     let told = folder.succeeds(&["check", &project(STATUE)]);
     assert_has(&told, &["a valid study of 90 run(s)", "15 level(s), from 0.1 to 1.5"]);
     assert_has(&told, &["  seed 6\n", "limit states: uplift, peak > 0.15"]);
+    let unordered =
+        "scene = \"base.toml\"\nmeasure = \"pgv\"\nlevels = [0.6, 0.2, 0.4]\n[records.synthetic]\nseeds = [1, 2]\n";
+    folder.write("base.toml", "[[block]]\nhalf_width = 0.3\nhalf_height = 1.0\n");
+    folder.write("unordered.toml", unordered);
+    assert_has(&folder.succeeds("check unordered.toml"), &["3 level(s), from 0.2 to 0.6"]);
     // The curves of the table alone are those of the study.
     folder.succeeds("plot ida.csv");
     assert!(folder.bytes("ida.svg") == first[4], "the figure of the table");

@@ -116,6 +116,10 @@ fn bad_distributions_are_refused_with_place_and_remedy() {
             vec!["half_width", "sample ", " is -0.", "`min` and `max`", "sweep.toml:5"],
         ),
         ("[axes]\nhalf_width = { normal = [0.25, 0.01] }\n".into(), vec!["[sampling]", "samples = 1000"]),
+        (
+            format!("{sampling}[axes]\nhalf_width = {{ normal = [0.25, 0.01], min = 0.3, max = 0.2 }}\n"),
+            vec!["truncated to 0.3 .. 0.2 a share of 0e0 is left", "the lower one first"],
+        ),
         (format!("{sampling}[axes]\nhalf_width = [0.25]\n"), vec!["no axis is a distribution"]),
         (
             format!("{sampling}[axes]\nhalf_width = {{ gumbel = [0.25, 0.01] }}\n"),

@@ -539,7 +539,7 @@ def test_tables_as_pandas_users_have_them_are_read(recwarn: pytest.WarningsRecor
 
 def test_bands_that_are_not_there_are_none():
     column = rk.Column.drums(2, diameter=0.8, height=3.2, density=2500)
-    study = rk.ida(column, rk.synthetic(range(2), duration=6), "pgv", np.geomspace(0.2, 3, 10), friction=0.4, eta=0.9, trust=False)
+    study = rk.ida(column, rk.synthetic(range(2), duration=6), "pgv", np.geomspace(0.2, 3, 10), friction=0.4, trust=False)
     curve = study.fragility(replicates=200)
     assert curve.to_dict()["bands"]["median"] is None and curve.bands is None
 

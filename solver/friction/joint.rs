@@ -11,7 +11,7 @@
 //! between their middles.
 
 use crate::column::Column;
-use crate::mechanics::kinematics::{Vec2, relative};
+use crate::mechanics::kinematics::{Vec2, lower, relative};
 use crate::numerics::per_block::PerBlock;
 use rocking_codegen::joints::{self, Carrier, Joints};
 use rocking_codegen::pattern::{Interface, Pattern};
@@ -131,6 +131,17 @@ pub struct Configuration {
     pub apart_rate: PerBlock<Vec2>,
 }
 
+/// Difference of two angles that is rounding `[rad]`.
+const ANGLE_ROUNDING: f64 = 1e-12;
+
+/// The side on which a free interface between blocks at these angles `[rad]` counts as open: that of the relative angle or, where that is rounding,
+/// of the upper block's angle; right at zero.
+pub fn open_side(upper: f64, lower: f64) -> Interface {
+    let relative = upper - lower;
+    let leaning = if relative.abs() > ANGLE_ROUNDING { relative } else { upper };
+    if leaning < 0.0 { Interface::Left } else { Interface::Right }
+}
+
 impl Configuration {
     /// Configuration in this pattern in which every contact sticks, with the slides of the column.
     pub fn sticking(column: &Column, pattern: &Pattern, theta: &[f64], omega: &[f64]) -> Configuration {
@@ -170,15 +181,12 @@ impl Configuration {
         }
     }
 
-    /// The pattern: the side of a corner; for a free interface the sign of the relative angle, `+` at zero.
+    /// The pattern: the side of a corner; for a free interface that on which it counts as open ([`open_side`]).
     pub fn pattern(&self) -> Pattern {
         let state = |interface: usize| match self.joints[interface] {
             Joint::Closed(_) => Interface::Closed,
             Joint::Corner(side, ..) => Interface::from_sign(side),
-            Joint::Free => {
-                let phi = self.relative_angle(interface);
-                if phi < 0.0 { Interface::Left } else { Interface::Right }
-            }
+            Joint::Free => open_side(self.theta[interface], lower(&self.theta, interface)),
         };
         Pattern((0..self.joints.len()).map(state).collect())
     }

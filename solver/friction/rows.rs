@@ -7,8 +7,8 @@
 //! Σ_{i≥j} m_i A_i · R(θ_face) (1, ε μ) = 0          which is T + ε μ N = 0
 //! ```
 //!
-//! No normal force is solved for, and the matrix is not symmetric. In a smooth motion `A` are accelerations, with gravity and the ground's added. In an impact `A` are the
-//! jumps of velocity, and forces are impulses.
+//! No normal force is solved for, and the matrix is not symmetric. In a smooth motion `A` are accelerations, with gravity and the ground's added. In
+//! an impact `A` are the jumps of velocity, and forces are impulses.
 
 use super::chain::{BlockMotion, Chain, Rates};
 use super::joint::{Configuration, Joint, Slip};
@@ -90,7 +90,8 @@ pub fn by_block(coordinates: &[Coordinate], values: &[f64], blocks: usize) -> Ra
 pub struct Answer {
     /// Accelerations of the coordinates, or their rates after an impact.
     pub motion: Rates,
-    /// `A = a + (ẍ_g, g + ÿ_g)` of each block's centroid, with `a` relative to the ground (docs/book/model.md, section 4), or the jumps of the blocks' velocities.
+    /// `A = a + (ẍ_g, g + ÿ_g)` of each block's centroid, with `a` relative to the ground (docs/book/model.md, section 4), or the jumps of the
+    /// blocks' velocities.
     pub change: BlockMotion,
     /// Forces, or impulses, of the contacts on the stacks above, in the axes of the face that carries the contact. Moments are about the centre of a
     /// closed contact, and about the point of a corner.

@@ -10,14 +10,15 @@
 //! A slide that begins has `ε ü >= 0` besides. In an impact velocities and impulses take the places of accelerations and forces. The search begins with what
 //! sticks and lets each violated condition name the next state. What it does where that is not enough, in this order:
 //!
-//! | where | what | file |
-//! |---|---|---|
-//! | violated conditions name states in circles | the states that a complementarity problem has | `admissible.rs`, [`super::complementarity`] |
-//! | these lead to no answer, or coefficients are so large that a few blocks may have several | all combinations: the fewest changes, in an impact the least energy of the change | `admissible.rs` |
-//! | an impact of many blocks still has no answer | other states to begin with | `admissible.rs` |
-//! | states slide, and states that all stick are admissible as well | the sticking ones | `preference.rs` |
-//! | kinetic friction is below static, and several sets of slides are admissible | the fewest slides that begin, then the least energy of the change | `preference.rs` |
-//! | no acceleration is admissible: a jam | velocities jump | `impact.rs` |
+//! - Violated conditions name states in circles: it begins with the states that a complementarity problem has (`admissible.rs`,
+//!   [`super::complementarity`]).
+//! - These lead to no answer: all combinations are tried; the one with the fewest changes holds, in an impact that with the least energy of the
+//!   change. The same at once for a few blocks with coefficients so large that there may be several answers (`admissible.rs`).
+//! - An impact of many blocks still has no answer: it begins with other states (`admissible.rs`).
+//! - Something slides, or nothing is found, where states that all stick may be admissible as well: those hold (`preference.rs`).
+//! - Kinetic friction is below static, and several sets of slides are admissible: the fewest slides that begin hold, then the least energy of the
+//!   change (`preference.rs`).
+//! - No acceleration is admissible, a jam: velocities jump (`impact.rs`).
 //!
 //! The conditions are in `conditions.rs`, restitution in `impact.rs`, corners that coincide in `instant_later.rs`.
 

@@ -198,7 +198,8 @@ fn opening(
     Ok(opening)
 }
 
-/// What the laws of contact decide an instant after this state, and the interfaces that open, with their sides. An opening changes no rates: those of `before` are used.
+/// What the laws of contact decide an instant after this state, and the interfaces that open, with their sides. An opening changes no rates: those of
+/// `before` are used.
 #[cold]
 fn an_instant_later(problem: &Problem, before: &State) -> Result<(Decision, PerBlock<(usize, Interface)>), SolveError> {
     let column = &problem.scene.column;

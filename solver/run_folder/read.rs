@@ -5,7 +5,7 @@ use crate::column::{Block, Column, Shape};
 use crate::friction::Friction;
 use crate::mechanics::dynamics::ContactForce;
 use crate::response::{BlockAtEvent, BlockState, Event, Response, Sample};
-use crate::scene::{Look, Restitution};
+use crate::scene::{Initial, Look, Restitution};
 use crate::trust::{Band, Trust};
 use rocking_codegen::pattern::Pattern;
 use serde::Deserialize;
@@ -44,6 +44,9 @@ pub struct Results {
     pub looks: Vec<Look>,
     /// Coefficients of friction; `None` for a run of the model without sliding.
     pub friction: Option<Friction>,
+    /// How the column starts; slides at the start are part of `column`.
+    #[serde(default)]
+    pub initial: Initial,
     /// Law of impacts.
     pub restitution: Restitution,
     /// Description of the ground motion: `horizontal` and `vertical`, each with `kind` and parameters; a record without its samples.

@@ -5,7 +5,7 @@ use serde::Serialize;
 /// A number that a file does not give, derived from what it gives.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Derived {
-    /// Dotted key that would give the number, e.g. `block[1].mass`; `block[1..3].mass` of three blocks.
+    /// Dotted name of the number, e.g. `block[1].mass`, the key that would give it; `block[1..3].mass` if it is that of each of three blocks.
     pub key: String,
     /// Value, in SI units.
     pub value: f64,

@@ -27,8 +27,8 @@ fn blocks_fly_and_land_together() {
     }
 }
 
-/// Two blocks fly, and the upper one, which turns at 1 rad/s, leans past the lower one at 0.1 s: the flight belongs to one mode before and to another after. The
-/// whole flight had counted under the pattern at its start.
+/// Two blocks fly, and the upper one, which turns at 1 rad/s, leans past the lower one at 0.1 s: the flight belongs to one mode before and to another
+/// after. The whole flight had counted under the pattern at its start.
 #[test]
 fn a_flight_counts_under_the_mode_of_each_of_its_moments() {
     let mut scene = scene(vec![Block::rectangle(0.3, 0.5, 1.0); 2], vec![0.5; 2]);
@@ -41,6 +41,26 @@ fn a_flight_counts_under_the_mode_of_each_of_its_moments() {
         let times = run(&scene).time_in_mode;
         assert_relative_eq!(times["1.3"], 0.1, max_relative = 1e-9);
         assert_relative_eq!(times["1.1"], 0.4, max_relative = 1e-9);
+    }
+}
+
+/// Blocks that fly at one angle, their rates equal: their relative angle is rounding, and no mode. Mirror images spend equal times in each mode.
+#[test]
+fn rounding_is_no_change_of_mode() {
+    let times = |side: f64, method: Method, omega: [f64; 2]| {
+        let mut scene = scene(vec![Block::rectangle(0.3, 0.5, 1.0); 2], vec![0.5; 2]);
+        (scene.initial.theta, scene.initial.omega) = (vec![0.05 * side; 2], omega.map(|rate| side * rate).to_vec());
+        (scene.initial.x, scene.initial.y) = (vec![0.0; 2], vec![1.0, 2.1]);
+        (scene.initial.vx, scene.initial.vy) = (vec![0.3 * side; 2], vec![1.0; 2]);
+        (scene.options.t_end, scene.options.method) = (0.2, method);
+        run(&scene).time_in_mode
+    };
+    for method in [Method::Taylor, Method::Dop853] {
+        for omega in [[0.7, 0.7], [-1.0, -1.0], [0.0, -1.3], [0.4, -0.9]] {
+            let own = times(1.0, method, omega);
+            assert_eq!(own, times(-1.0, method, omega), "{method:?} {omega:?}");
+            assert!(omega[0] != omega[1] || own.len() == 1, "{method:?} {omega:?}: {own:?}");
+        }
     }
 }
 

@@ -266,6 +266,7 @@ pub enum Method {
     #[schemars(rename = "dormand-prince54")]
     DormandPrince54,
     Dopri5,
+    Rk45,
     KuttaMerson,
     Rk4,
 }

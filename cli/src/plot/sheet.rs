@@ -533,8 +533,8 @@ pub fn shortened(text: &str, size: u32, width: f64) -> String {
     kept
 }
 
-/// A list of settings, `name = value, name = value`, cut to at most `width` `[px]`: names first, the longest one first, as the values tell one list from
-/// another.
+/// A list of settings, `name = value, name = value`, cut to at most `width` `[px]`: names first, the longest one first, as the values tell one list
+/// from another.
 pub fn shortened_settings(settings: &str, size: u32, width: f64) -> String {
     let mut parts: Vec<(&str, String)> = settings
         .split(", ")

@@ -120,13 +120,18 @@ fn places(results: &Results) -> String {
         return "<p>Friction holds: no block slides or flies.</p>\n".into();
     }
     let moved: Vec<usize> = (0..results.column.len()).filter(|&interface| report.has_moved(interface)).collect();
-    let first = results.response.samples.first();
+    // Slides at the start: those of the row at zero or, without one, of the column that nothing has moved; of placed blocks they are not known then.
+    let first = results.response.samples.first().filter(|row| row.t == 0.0);
+    let start = |interface: usize| match first.and_then(|row| row.slide.get(interface)) {
+        Some(slide) => Some(*slide),
+        None => results.initial.x.is_empty().then(|| results.column.slides()[interface]),
+    };
     let slid = moved.iter().filter(|&&interface| report.way_slid[interface] > 0.0);
     let way: Vec<String> = slid
         .map(|&interface| {
             let way = report.way_slid[interface];
-            let start = first.and_then(|row| row.slide.get(interface)).copied().unwrap_or_default();
-            let is_reversed = way > (report.residual_slide[interface] - start).abs() + SMALLEST_SLIDE;
+            let one_way = |start: f64| (report.residual_slide[interface] - start).abs() + SMALLEST_SLIDE;
+            let is_reversed = start(interface).is_some_and(|start| way > one_way(start));
             format!(
                 "interface {} by {}{}",
                 interface + 1,

@@ -37,8 +37,8 @@ impl Search<'_> {
         }
     }
 
-    /// The states that the search finds if it begins with another state of one interface, or of two neighbours, and with what sticks elsewhere: of several,
-    /// those with the least energy of the change. For impacts with too many combinations to be tried.
+    /// The states that the search finds if it begins with another state of one interface, or of two neighbours, and with what sticks elsewhere: of
+    /// several, those with the least energy of the change. For impacts with too many combinations to be tried.
     pub(super) fn begun_elsewhere(&self, first: &[Joint]) -> Option<Solution> {
         let with_others = |states: &PerBlock<Joint>, interface: usize| -> Vec<PerBlock<Joint>> {
             let others = self.choices(interface).to_vec().into_iter().filter(|joint| *joint != first[interface]);
@@ -121,8 +121,8 @@ impl Search<'_> {
         None
     }
 
-    /// The best of all admissible combinations that `is_accepted` accepts: fewest changes against `first` (not counted in an impact), then least energy of the
-    /// change. `None` if there is none, or with more than [`MOST_TRIED`] combinations.
+    /// The best of all admissible combinations that `is_accepted` accepts: fewest changes against `first` (not counted in an impact), then least
+    /// energy of the change. `None` if there is none, or with more than [`MOST_TRIED`] combinations.
     pub(super) fn best_of_all(
         &self,
         first: &[Joint],

@@ -69,34 +69,34 @@ impl Search<'_> {
         Search::new(self.column, self.now, self.touch, self.friction, question).complementary(&self.friction.kinetic)
     }
 
-    /// The impact after restitution at some interfaces, base first: each relative rate is multiplied by its factor, through an equal and opposite moment
-    /// impulse there (docs/book/model.md, sections 5 and 17). The states are those of the plastic solution, but a contact whose slide would turn back
-    /// sticks. `None` where restitution would raise the energy, or break a condition of contact.
+    /// The impact after restitution at some interfaces, base first: each relative rate is multiplied by its factor, through an equal and opposite
+    /// moment impulse there (docs/book/model.md, sections 5 and 17). Contacts that rebound stick; the others stick or slide as their cones ask,
+    /// beginning with the plastic solution. `None` where restitution would raise the energy, or break a condition of contact.
     pub fn rebound(&self, plastic: &Solution, rebounding: &[(usize, f64)]) -> Option<Solution> {
         let target = |&(interface, factor): &(usize, f64)| {
             (interface, factor * relative(&plastic.answer.motion.omega, interface))
         };
         let targets: Vec<(usize, f64)> = rebounding.iter().map(target).collect();
         let mut joints = plastic.joints.clone();
-        loop {
+        for &(interface, _) in rebounding {
+            joints[interface] = self.with_slip(interface, joints[interface], Slip::Sticks);
+        }
+        // Each contact changes from sticking to a slide and back once; contacts that ask for more go in circles.
+        for _ in 0..=2 * joints.len() {
             let answer = self.with_relative_rates(&joints, &targets)?;
-            let mut turns_back = false;
-            for (interface, joint) in joints.iter_mut().enumerate() {
-                if matches!(joint.slip(), Some(Slip::Slides(_)))
-                    && self.wrong_slip(interface, *joint, &answer, self.slack).is_some()
-                {
-                    *joint = match *joint {
-                        Joint::Corner(side, ..) => self.corner(interface, side, Slip::Sticks),
-                        _ => Joint::Closed(Slip::Sticks),
-                    };
-                    turns_back = true;
-                }
-            }
-            if !turns_back {
+            let other = |interface: usize| {
+                let is_rebounding = rebounding.iter().any(|(own, _)| *own == interface);
+                let slip = self.wrong_slip(interface, joints[interface], &answer, self.slack)?;
+                (!is_rebounding).then(|| (interface, self.with_slip(interface, joints[interface], slip)))
+            };
+            let others: Vec<(usize, Joint)> = (0..joints.len()).filter_map(other).collect();
+            if others.is_empty() {
                 let is_ambiguous = plastic.is_ambiguous;
                 return self.may_rebound(&joints, &answer).then_some(Solution { joints, answer, is_ambiguous });
             }
+            others.into_iter().for_each(|(interface, joint)| joints[interface] = joint);
         }
+        None
     }
 
     /// The impact in which moment impulses at some interfaces, base first, give them these relative rates `[rad/s]`. `None` if no such impulses can.

@@ -14,13 +14,14 @@ pub(super) const AMBIGUOUS_FROM: f64 = 0.8;
 /// Largest number of interfaces for which all combinations are tried to find a second answer.
 pub(super) const MOST_BLOCKS_TRIED: usize = 3;
 
-/// Least difference of some velocity, or acceleration, between two answers with other motions, as a share of the speed, or acceleration, at work. Smaller,
-/// and the rounding of one motion counts as two.
+/// Least difference of some velocity, or acceleration, between two answers with other motions, as a share of the speed, or acceleration, at work.
+/// Smaller, and the rounding of one motion counts as two.
 const OTHER_SHARE: f64 = 1e-6;
 
 impl Search<'_> {
-    /// The states in which everything sticks that touches, if they are admissible beside those found, in which something slides: they come first. Only with
-    /// less kinetic than static friction, or with large coefficients, both may be admissible. `None` also where something slides on, or is to begin.
+    /// The states in which everything sticks that touches, if they are admissible beside those found, in which something slides: they come first.
+    /// Only with less kinetic than static friction, or with large coefficients, both may be admissible. `None` also where something slides on, or is
+    /// to begin.
     pub(super) fn without_slides(&self, first: &[Joint], found: Option<&Solution>) -> Option<Solution> {
         let touches = |(joint, touch): (&Joint, &Touch)| joint.sticks() || *touch == Touch::Nothing;
         let stick = |joints: &[Joint]| joints.iter().zip(self.touch).all(touches);
@@ -41,8 +42,8 @@ impl Search<'_> {
         Some(Solution { is_ambiguous: found.is_some_and(is_second), ..sticking })
     }
 
-    /// With less kinetic than static friction, several sets of slides may be admissible: that with the fewest slides that begin holds, then that with the least
-    /// energy of the change. If there are several, the instant is ambiguous.
+    /// With less kinetic than static friction, several sets of slides may be admissible: that with the fewest slides that begin holds, then that with
+    /// the least energy of the change. If there are several, the instant is ambiguous.
     pub(super) fn with_fewest_slides(&self, found: Solution) -> Solution {
         let Coefficients { fixed, kinetic } = self.friction;
         let begun = |joints: &[Joint]| (0..joints.len()).filter(|i| self.begins_to_slide(joints, *i)).count();
@@ -69,8 +70,8 @@ impl Search<'_> {
         }
     }
 
-    /// The same motion with those slides that begin without an acceleration sticking, where static friction exceeds kinetic: a contact that moves with one of
-    /// the same coefficients below it needs no more than kinetic friction.
+    /// The same motion with those slides that begin without an acceleration sticking, where static friction exceeds kinetic: a contact that moves
+    /// with one of the same coefficients below it needs no more than kinetic friction.
     pub(super) fn without_still_slides(&self, found: Solution) -> Solution {
         let is_still = |i: &usize| {
             self.begins_to_slide(&found.joints, *i)
@@ -93,8 +94,8 @@ impl Search<'_> {
         matches!(joints[interface].slip(), Some(Slip::Slides(_))) && self.given_slip(interface).is_none()
     }
 
-    /// The states with other slides that begin, as many together as in these states or fewer. With more than [`MOST_BLOCKS_TRIED`] interfaces, those in
-    /// which one of the slides sticks.
+    /// The states with other slides that begin, as many together as in these states or fewer. With more than [`MOST_BLOCKS_TRIED`] interfaces, those
+    /// in which one of the slides sticks.
     pub(super) fn other_slides(&self, joints: &[Joint]) -> Vec<PerBlock<Joint>> {
         let (count, mut sticking) = (joints.len(), PerBlock::from_slice(joints));
         let begun: Vec<usize> = (0..count).filter(|i| self.begins_to_slide(joints, *i)).collect();
@@ -156,8 +157,8 @@ impl Search<'_> {
         pairs.any(|(a, b)| (a[0] - b[0]).abs() + (a[1] - b[1]).abs() > OTHER_SHARE * self.linear)
     }
 
-    /// Whether states are admissible by more than rounding. States that are admissible by rounding only, such as sticking just where a slide begins, are the
-    /// same motion as the states beside them, and no second one.
+    /// Whether states are admissible by more than rounding. States that are admissible by rounding only, such as sticking just where a slide begins,
+    /// are the same motion as the states beside them, and no second one.
     pub(super) fn is_clear(&self, joints: &[Joint], answer: &Answer) -> bool {
         self.is_admissible(joints, answer, self.slack.margin())
     }

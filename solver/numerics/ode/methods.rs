@@ -74,7 +74,7 @@ impl Method {
 
     /// The method of this name; `dopri5` and `rk45` are other names of `dormand-prince54`.
     pub fn parse(name: &str) -> Option<Method> {
-        let name = if ["dopri5", "rk45"].contains(&name) { "dormand-prince54" } else { name };
+        let name = if ["dopri5", "rk45", "RK45"].contains(&name) { "dormand-prince54" } else { name };
         Method::ALL.iter().copied().find(|method| method.name() == name)
     }
 }

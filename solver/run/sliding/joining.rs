@@ -1,4 +1,5 @@
-//! Contacts that are joined, held and parted: the configuration is given states, and its motion is projected onto what they allow, momentum conserved.
+//! Contacts that are joined, held and parted: the configuration is given states, and its motion is projected onto what they allow, momentum
+//! conserved.
 
 use super::contacts::{self, Resolution};
 use super::transition::PendingTransition;
@@ -84,9 +85,9 @@ impl PendingTransition<'_> {
         self.adopt(&joints);
     }
 
-    /// An interface that touches and that a jump of velocities from `before` to `after` would drive in, with the state that holds it and its slide `[m]`:
-    /// a corner whose faces would cross is closed, a free interface keeps the corner that touches. `None` if the interface is not driven in, or was
-    /// closing before.
+    /// An interface that touches and that a jump of velocities from `before` to `after` would drive in, with the state that holds it and its slide
+    /// `[m]`: a corner whose faces would cross is closed, a free interface keeps the corner that touches. `None` if the interface is not driven in,
+    /// or was closing before.
     fn driven_in(
         &self,
         chain: &Chain,

@@ -21,9 +21,9 @@ pub fn slides_on(column: &Column, friction: &Coefficients, now: &Configuration) 
     (0..now.joints.len()).any(goes_on)
 }
 
-/// Whether the column is past its balance or, on a ground that rests from now on, has the energy to get there: with the blocks displaced by these `slides`
-/// `[m]`, as they are at the end, or as far as slides and flights on other blocks may go on, by the energy that there is. A block that is off its support then
-/// has no balance. `above_rest` is the energy above that of the column at rest `[J]`.
+/// Whether the column is past its balance or, on a ground that rests from now on, has the energy to get there: with the blocks displaced by these
+/// `slides` `[m]`, as they are at the end, or as far as slides and flights on other blocks may go on, by the energy that there is. A block that is
+/// off its support then has no balance. `above_rest` is the energy above that of the column at rest `[J]`.
 pub fn may_overturn(
     problem: &Problem,
     friction: &Coefficients,

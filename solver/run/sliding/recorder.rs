@@ -20,7 +20,7 @@ use crate::run::cones::slowest_impact;
 use crate::run::log::{Extremes, Log, Rows, raise};
 use crate::run::problem::Problem;
 use crate::run::rest;
-use rocking_codegen::pattern::Pattern;
+use rocking_codegen::pattern::{Interface, Pattern};
 use std::collections::BTreeMap;
 
 /// The inside of a stretch.
@@ -49,8 +49,8 @@ pub trait StepInside<'p>: Snapshots<'p> {
     /// The largest gap of a free interface up to a time `[s]`, or `so_far` if that is larger `[m]`.
     fn highest_gap(&mut self, until: f64, interface: usize, so_far: f64) -> f64;
 
-    /// Visits the times up to `until` at which the relative angle at an interface changes its sign `[s]`.
-    fn sign_changes(&mut self, until: f64, interface: usize, visit: &mut dyn FnMut(f64));
+    /// Visits the times up to `until` at which a free interface changes the side on which it counts as open `[s]`, with the new side.
+    fn changes_of_side(&mut self, until: f64, interface: usize, visit: &mut dyn FnMut(f64, Interface));
 }
 
 /// A node of the quadrature over a step.
@@ -79,8 +79,8 @@ pub struct SlidingRecorder<'p> {
     /// Normal force above which a contact has a friction demand, per interface `[N]`.
     least_normal_force: PerBlock<f64>,
     time_in_mode: BTreeMap<String, f64>,
-    /// Times of the stretch so far at which the upper block of a free interface leans to the other side, with the interface: the mode is another from there.
-    leanings: Vec<(f64, usize)>,
+    /// Times of the stretch so far from which a free interface counts as open on another side, with the interface and that side.
+    sides: Vec<(f64, usize, Interface)>,
     /// [`Response::used_generic`] of some part in which everything sticks.
     used_generic: bool,
     report: SlidingReport,
@@ -105,7 +105,7 @@ impl<'p> SlidingRecorder<'p> {
                 .map(|i| LIGHT_SHARE * problem.scene.column.mass_above(i) * problem.scene.column.gravity())
                 .collect(),
             time_in_mode: BTreeMap::new(),
-            leanings: Vec::new(),
+            sides: Vec::new(),
             used_generic: false,
             report: SlidingReport {
                 peak_slide: slide.iter().map(|slide| slide.abs()).collect(),
@@ -279,12 +279,12 @@ impl<'p> SlidingRecorder<'p> {
         let mut add = |pattern: &Pattern, span: f64| {
             *self.time_in_mode.entry(ModeName::of(pattern).to_string()).or_insert(0.0) += span;
         };
-        self.leanings.sort_by(|a, b| a.0.total_cmp(&b.0));
-        for (t, interface) in self.leanings.drain(..) {
+        self.sides.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (t, interface, side) in self.sides.drain(..) {
             if t > since {
                 add(&pattern, t - since);
             }
-            pattern.0[interface] = pattern.0[interface].mirror();
+            pattern.0[interface] = side;
             since = t;
         }
         add(&pattern, until.t - since);
@@ -347,7 +347,8 @@ impl<'p> SlidingRecorder<'p> {
         for (interface, joint) in joints.iter().enumerate() {
             match joint {
                 Joint::Free => {
-                    inside.sign_changes(until, interface, &mut |t| self.leanings.push((t, interface)));
+                    let sides = &mut self.sides;
+                    inside.changes_of_side(until, interface, &mut |t, side| sides.push((t, interface, side)));
                     self.report.highest_flight = inside.highest_gap(until, interface, self.report.highest_flight);
                 }
                 joint => self.forces(interface, *joint, until, inside),

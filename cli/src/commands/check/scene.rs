@@ -12,6 +12,7 @@ use rocking::scene_file::{Derived, SceneFile};
 use rocking::{Block, Column, Friction, Motion, Restitution, Scene};
 use serde::{Serialize, Serializer};
 use std::fmt::Write as _;
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 /// Reads a scene and explains it.
@@ -177,8 +178,9 @@ struct MotionFindings {
 /// Height above which a column has most likely been given in cm or mm `[m]`. The tallest columns of stone have some thirty.
 const TALL: f64 = 60.0;
 
-/// Density of drums below which a note says so `[kg/m³]`: wood has more.
-const LIGHT: f64 = 300.0;
+/// Densities that have most likely been given in t/m³ `[kg/m³]`. One alone stands where nothing is given, and in scenes of which only ratios of
+/// masses count.
+const T_PER_M3: RangeInclusive<f64> = 1.2..=4.0;
 
 /// Serialises the description of a motion, without the samples of records.
 fn described<S: Serializer>(motion: &Motion, serializer: S) -> Result<S::Ok, S::Error> {
@@ -288,13 +290,11 @@ impl Findings {
             let volume = look.shape.measure([block.bottom_half_width, block.top_half_width], block.half_height);
             (look.shape == Shape::Drum).then(|| block.mass / volume)
         };
-        let lightest = self.blocks.iter().zip(&scene.looks).filter_map(density).reduce(f64::min);
-        if let Some(density) = lightest.filter(|density| *density < LIGHT) {
+        let densest = self.blocks.iter().zip(&scene.looks).filter_map(density).reduce(f64::max);
+        if let Some(density) = densest.filter(|density| T_PER_M3.contains(density)) {
             let density = significant(density, 4);
-            let _ = writeln!(
-                text,
-                "note: a drum has {density} kg/m³, and stone 1500 to 3000; densities are in kg/m³, masses in kg"
-            );
+            let _ =
+                writeln!(text, "note: drums of {density} kg/m³; stone has 1500 to 3000 kg/m³, which are 1.5 to 3 t/m³");
         }
         self.table_of_blocks(text);
         self.table_of_stacks(text, gravity);
@@ -368,11 +368,9 @@ impl Findings {
         if let ([block], Restitution::Eta(eta), Some(friction)) =
             (&self.stacks[..], &scene.restitution, &scene.friction)
         {
-            let needed =
-                |ratio: f64| block.stack.centroid_height / block.stack.half_width * (1.0 - ratio) / (1.0 + ratio);
-            let (kinetic, plastic, needed) = (friction.kinetic[0], needed(block.housner_ratio), needed(*eta));
-            // Where the plastic impact slides, so does the one with restitution.
-            if plastic <= kinetic && kinetic < needed {
+            let needed = block.stack.centroid_height / block.stack.half_width * (1.0 - eta) / (1.0 + eta);
+            let kinetic = friction.kinetic[0];
+            if needed > kinetic {
                 let _ = writeln!(
                     text,
                     "  an impact at which nothing slides needs a coefficient of friction of {}; with {} restitution is left out",

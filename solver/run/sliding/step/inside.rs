@@ -4,7 +4,9 @@ use super::{Output, Step};
 use crate::friction::chain::Rates;
 use crate::friction::gaps::Corner;
 use crate::friction::guard_series::SeriesSpan;
+use crate::friction::joint::open_side;
 use crate::mechanics::dynamics::ContactForce;
+use crate::mechanics::kinematics::lower;
 use crate::numerics::guards::first_crossing;
 use crate::numerics::per_block::PerBlock;
 use crate::numerics::polynomial::powers::Powers;
@@ -13,6 +15,7 @@ use crate::run::log::raise;
 use crate::run::sliding::contacts;
 use crate::run::sliding::recorder::{Node, Snapshots, StepInside};
 use crate::run::sliding::smooth::Snapshot;
+use rocking_codegen::pattern::Interface;
 
 /// Nodes and weights of Gauss's rule with five places on `[0, 1]`.
 const GAUSS: [(f64, f64); 5] = [
@@ -112,29 +115,32 @@ impl<'p, O: Output> StepInside<'p> for Step<'_, 'p, O> {
         highest_of(&mut |s| contacts::least_distance(corners.iter().map(|corner| position(corner, s))))
     }
 
-    fn sign_changes(&mut self, until: f64, interface: usize, visit: &mut dyn FnMut(f64)) {
+    fn changes_of_side(&mut self, until: f64, interface: usize, visit: &mut dyn FnMut(f64, Interface)) {
         let (t, h, places) = (self.t, self.h, places([0.0, self.place(until)]));
         let angle = |span: &SeriesSpan, block: Option<usize>| block.map(|block| span.angle(block));
         let angles = self
             .output
             .series()
             .map(|span| [Some(interface), interface.checked_sub(1)].map(|block| angle(span, block)));
-        let mut is_negative = |s: f64| match &angles {
+        let mut side = |s: f64| match &angles {
             Some(angles) => {
                 let [own, below] = angles.each_ref().map(|angle| angle.as_ref().map_or(0.0, |angle| angle.evaluate(s)));
-                own < below
+                open_side(own, below)
             }
-            None => self.at(s, false).configuration.relative_angle(interface) < 0.0,
+            None => {
+                let theta = &self.at(s, false).configuration.theta;
+                open_side(theta[interface], lower(theta, interface))
+            }
         };
-        let signs = places.map(&mut is_negative);
-        for own in (1..PLACES).filter(|own| signs[own - 1] != signs[*own]) {
+        let sides = places.map(&mut side);
+        for own in (1..PLACES).filter(|own| sides[own - 1] != sides[*own]) {
             let [mut low, mut high] = [places[own - 1], places[own]];
             for _ in 0..HALVINGS_TO_CHANGE {
                 let middle = 0.5 * (low + high);
-                *(if is_negative(middle) == signs[own] { &mut high } else { &mut low }) = middle;
+                *(if side(middle) == sides[own] { &mut high } else { &mut low }) = middle;
             }
             // From a start at zero on, this is the start itself.
-            visit(t + h * low);
+            visit(t + h * low, sides[own]);
         }
     }
 }
@@ -199,7 +205,8 @@ fn places([from, until]: [f64; 2]) -> [f64; PLACES] {
     std::array::from_fn(|index| from + (until - from) * index as f64 / (PLACES - 1) as f64)
 }
 
-/// Rotation of a flying block `[rad]` beyond which a step is searched in panels for its largest gap. Within it, gaps are concave in time but for little.
+/// Rotation of a flying block `[rad]` beyond which a step is searched in panels for its largest gap. Within it, gaps are concave in time but for
+/// little.
 const PANEL_ROTATION: f64 = 0.5;
 
 /// Halvings in which a change of sign is enclosed: to `2^-40`, 1e-12 of the step.
