@@ -92,7 +92,6 @@ impl Block {
 /// The solid of which a block is the side view.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-#[non_exhaustive]
 pub enum Shape {
     /// The same trapezoid at every depth.
     #[default]

@@ -72,7 +72,7 @@ fn the_highest_flight_does_not_depend_on_rows() {
     (scene.initial.theta, scene.initial.omega) = (vec![0.0, 0.4468, -0.0796], vec![10.94, -26.76, 30.12]);
     (scene.initial.x, scene.initial.y) = (vec![0.269, 0.922, 1.239], vec![4.613, 10.294, 17.768]);
     (scene.initial.vx, scene.initial.vy) = (vec![-0.684, 1.871, 1.338], vec![4.18, 7.262, 1.33]);
-    (scene.options.t_end, scene.options.overturn_angle) = (0.5, 3.14);
+    (scene.options.t_end, scene.options.overturn_angle) = (0.5, 3.0);
     let mut highest = |dt: f64| {
         scene.output_dt = Some(dt);
         let response = run(&scene);
