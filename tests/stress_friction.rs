@@ -585,6 +585,15 @@ fn regression_circles_of_states_of_which_none_lasts_end_a_run() {
     assert!(tally.broken.is_empty(), "{:?}", tally.broken);
 }
 
+/// In impacts with restitution a contact that would have to pull was given a slide, always to the left: mirror images took other states.
+#[test]
+fn regression_a_contact_that_pulls_in_a_rebound_names_no_slide() {
+    for seed in [39_032, 40_664, 45_832, 55_624] {
+        let tally = run(Kind::Hostile, seed);
+        assert!(tally.broken.is_empty() && tally.parted.is_empty(), "{:?} {:?}", tally.broken, tally.parted);
+    }
+}
+
 /// The seeds of the long form: `ROCKING_SCENES`, a number or `first..end`; 100,000 otherwise.
 fn many() -> std::ops::Range<u64> {
     let text = std::env::var("ROCKING_SCENES").unwrap_or("100000".into());

@@ -87,7 +87,9 @@ impl Search<'_> {
             let other = |interface: usize| {
                 let is_rebounding = rebounding.iter().any(|(own, _)| *own == interface);
                 let slip = self.wrong_slip(interface, joints[interface], &answer, self.slack)?;
-                (!is_rebounding).then(|| (interface, self.with_slip(interface, joints[interface], slip)))
+                // Of a contact that pulls, both sides of the cone are violated, and neither names a slide.
+                (!is_rebounding && answer.contacts[interface].normal >= 0.0)
+                    .then(|| (interface, self.with_slip(interface, joints[interface], slip)))
             };
             let others: Vec<(usize, Joint)> = (0..joints.len()).filter_map(other).collect();
             if others.is_empty() {
