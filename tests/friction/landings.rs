@@ -490,15 +490,16 @@ fn a_block_rebounds_under_a_light_cap_that_slides() {
         run(&scene)
     };
     let impacts = |response: &Response| -> Vec<(f64, f64)> {
-        let of_base = response.events.iter().filter(|event| event.interfaces.contains(&1));
+        let of_base = response.events.iter().filter(|event| event.interface == Some(1));
         of_base.filter(|event| event.kind == EventKind::Impact).map(|event| (event.t, event.omega_after[0])).collect()
     };
     for (mu, factor) in [0.1, 0.2, 0.3, 0.4, 0.6, 1.0].into_iter().flat_map(|mu| [0.9, 0.8].map(|factor| (mu, factor)))
     {
         let (alone, capped) = (motion(None, mu, factor), motion(Some(1e-6), mu, factor));
         assert_eq!((alone.without_restitution, capped.without_restitution), (0, 0), "{mu}, {factor}");
-        let pairs = impacts(&alone).into_iter().zip(impacts(&capped)).take(12);
-        for ((t, rate), (capped_t, capped_rate)) in pairs {
+        let (alone, capped) = (impacts(&alone), impacts(&capped));
+        assert!(alone.len().min(capped.len()) >= 12, "{} {}", alone.len(), capped.len());
+        for ((t, rate), (capped_t, capped_rate)) in alone.into_iter().zip(capped).take(12) {
             assert_relative_eq!(t, capped_t, max_relative = 1e-5);
             assert_relative_eq!(rate, capped_rate, max_relative = 1e-4);
         }
