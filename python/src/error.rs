@@ -9,6 +9,9 @@ use rocking::{RecordError, SceneErrors, SceneFileError, SolveError};
 use std::io::ErrorKind;
 use std::path::Path;
 
+/// The name of a scene that was made in Python.
+const SCENE: &str = "<scene>";
+
 /// An exception of this class with these arguments. If it cannot be constructed, the exception is that failure.
 fn exception<'py>(py: Python<'py>, class: &str, arguments: impl pyo3::call::PyCallArgs<'py>) -> PyErr {
     let made = py.import("rocking._errors").and_then(|module| module.getattr(class)?.call1(arguments));
@@ -41,6 +44,20 @@ pub fn scene(py: Python<'_>, error: &SceneFileError) -> PyErr {
             exception(py, class, (text, shown(file), 0, "", problem))
         }
         _ => exception(py, "SceneError", (text,)),
+    }
+}
+
+/// The exception for a text that was made of keys: its lines are not those of the file that the keys are from, if there is one.
+pub fn of_keys(py: Python<'_>, mut error: SceneFileError) -> PyErr {
+    name_scene(&mut error);
+    scene(py, &error)
+}
+
+fn name_scene(error: &mut SceneFileError) {
+    match error {
+        SceneFileError::Scene { file, .. } | SceneFileError::Record { file, .. } => *file = SCENE.into(),
+        SceneFileError::Several { faults } => faults.iter_mut().for_each(name_scene),
+        _ => {}
     }
 }
 
@@ -78,7 +95,7 @@ pub fn beside_station(py: Python<'_>, file: &Path, key: &str) -> PyErr {
 /// `SolveError(message, time)`; `SceneError` for a scene that is not valid.
 pub fn solve(py: Python<'_>, error: &SolveError) -> PyErr {
     let time = match error {
-        SolveError::Scene(errors) => return faults(py, Path::new("<scene>"), errors),
+        SolveError::Scene(errors) => return faults(py, Path::new(SCENE), errors),
         SolveError::StepTooSmall { time, .. }
         | SolveError::NotFinite { time, .. }
         | SolveError::Stalled { time, .. }

@@ -272,10 +272,11 @@ pub fn intensity(name: &str, sa_period: Option<f64>, sa_damping: Option<f64>) ->
     }
     let found = Intensity::named(&lower, sa_period.map(|period| [period, damping]))
         .ok_or_else(|| PyValueError::new_err(format!("`{name}` is of a period; give sa_period in s")))?;
-    match (found.measure, sa_period) {
-        (Measure::Sa { .. }, _) | (_, None) => Ok(found),
-        _ => {
-            Err(PyValueError::new_err(format!("`{name}` has no period; leave sa_period out, or measure by sa or sa_g")))
+    let of_spectrum = [("period", sa_period), ("damping", sa_damping)];
+    match of_spectrum.iter().find(|(_, given)| given.is_some() && !matches!(found.measure, Measure::Sa { .. })) {
+        None => Ok(found),
+        Some((what, _)) => {
+            Err(PyValueError::new_err(format!("`{name}` has no {what}; leave sa_{what} out, or measure by sa or sa_g")))
         }
     }
 }

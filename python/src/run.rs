@@ -13,7 +13,7 @@ use rocking::json::Explicit;
 use rocking::pattern::Pattern;
 use rocking::run_folder::{Folder, Results, Run};
 use rocking::trust::{Band, Trust};
-use rocking::{BlockState, Event, Sample, Wanted};
+use rocking::{BlockAtEvent, BlockState, Event, Sample, Wanted};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -23,6 +23,9 @@ fn name(value: &impl Serialize) -> String {
     let name = serde_json::to_value(value).ok();
     name.and_then(|name| name.as_str().map(String::from)).unwrap_or_default()
 }
+
+/// Columns of the table of events that a block has: its place, its velocity before and after, to the right and upwards.
+const OF_BLOCKS: [[&str; 3]; 2] = [["x", "vx_before", "vx_after"], ["y", "vy_before", "vy_after"]];
 
 /// What a run returns.
 #[pyclass(frozen, module = "rocking._rocking")]
@@ -128,13 +131,21 @@ impl Response {
     /// Slides `[m]`, shape (rows, blocks); `None` without friction.
     fn slide<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArray2<f64>>>> {
         let shape = [self.samples().len(), self.blocks()];
-        self.has_slides().then(|| self.rows(py, |sample, out| out.extend_from_slice(&sample.slide), shape)).transpose()
+        self.scene
+            .friction
+            .is_some()
+            .then(|| self.rows(py, |sample, out| out.extend_from_slice(&sample.slide), shape))
+            .transpose()
     }
 
     /// Gaps of free interfaces `[m]`, shape (rows, blocks); `None` without friction.
     fn gap<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArray2<f64>>>> {
         let shape = [self.samples().len(), self.blocks()];
-        self.has_slides().then(|| self.rows(py, |sample, out| out.extend_from_slice(&sample.gap), shape)).transpose()
+        self.scene
+            .friction
+            .is_some()
+            .then(|| self.rows(py, |sample, out| out.extend_from_slice(&sample.gap), shape))
+            .transpose()
     }
 
     /// Centroids `[m]`, their velocities `[m/s]`, shape (rows, blocks, 4); `None` where nothing slides or flies.
@@ -176,7 +187,7 @@ impl Response {
         self.scene.output_columns.iter().map(name).collect()
     }
 
-    /// Events as columns; arrays of angles, rates, slides and impulses have the shape (events, blocks).
+    /// Events as columns; arrays of angles, rates, slides, impulses, places and velocities have the shape (events, blocks).
     fn events<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let events = &self.response.events;
         let columns = PyDict::new(py);
@@ -185,6 +196,11 @@ impl Response {
         let interface = |event: &Event| event.interface.and_then(|number| i64::try_from(number).ok());
         columns
             .set_item("interface", PyArray1::from_iter(py, events.iter().map(|event| interface(event).unwrap_or(0))))?;
+        let all = |event: &Event| match (&event.interfaces[..], event.interface) {
+            ([], only) => only.map(|number| number.to_string()),
+            (several, _) => Some(several.iter().map(usize::to_string).collect::<Vec<_>>().join(" ")),
+        };
+        columns.set_item("interfaces", events.iter().map(all).collect::<Vec<_>>())?;
         columns.set_item("before", events.iter().map(|event| event.before.to_string()).collect::<Vec<_>>())?;
         columns.set_item("after", events.iter().map(|event| event.after.to_string()).collect::<Vec<_>>())?;
         columns
@@ -207,6 +223,14 @@ impl Response {
             columns
                 .set_item("states_after", events.iter().map(|event| text(&event.states_after)).collect::<Vec<_>>())?;
             grid("slide", &|event, block| event.slide.get(block).copied().unwrap_or(f64::NAN))?;
+            for (axis, [place, before, after]) in OF_BLOCKS.into_iter().enumerate() {
+                let of = |part: fn(&BlockAtEvent) -> [f64; 2]| {
+                    move |event: &Event, block: usize| event.blocks.get(block).map_or(f64::NAN, |at| part(at)[axis])
+                };
+                grid(place, &of(|block| block.place))?;
+                grid(before, &of(|block| block.velocity_before))?;
+                grid(after, &of(|block| block.velocity_after))?;
+            }
         }
         grid("theta", &|event, block| event.theta[block])?;
         grid("omega_before", &|event, block| event.omega_before[block])?;
@@ -215,6 +239,7 @@ impl Response {
         grid("tangential_impulse", &|event, block| {
             event.impulses.get(block).map_or(f64::NAN, |impulse| impulse.tangential)
         })?;
+        grid("moment_impulse", &|event, block| event.impulses.get(block).map_or(f64::NAN, |impulse| impulse.moment))?;
         Ok(columns)
     }
 
@@ -253,6 +278,11 @@ impl Response {
     /// Largest angles `[rad]`, shape (blocks,).
     fn peak_theta<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         PyArray1::from_slice(py, &self.response.peak_theta)
+    }
+
+    /// Largest angles over the slenderness of the stacks, shape (blocks,).
+    fn peaks<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_vec(py, self.response.peaks(&self.scene.column))
     }
 
     #[getter]

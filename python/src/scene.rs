@@ -79,7 +79,7 @@ impl Scene {
             }
         }
         let mut text = to_toml(keys)?;
-        let mut scene = rocking::Scene::from_toml(&text, &file).map_err(|refused| error::scene(py, &refused))?;
+        let mut scene = rocking::Scene::from_toml(&text, &file).map_err(|refused| error::of_keys(py, refused))?;
         if horizontal.is_some() || vertical.is_some() {
             let motion = |record: &Record| Motion::Record(record.record.clone());
             let excitation = &mut scene.excitation;

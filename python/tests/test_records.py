@@ -85,7 +85,14 @@ def test_bad_records_are_refused(tmp_path: Path, record: rk.Record) -> None:
         rk.Record.read(tmp_path / "none.AT2")
     with pytest.raises(ValueError, match="unit `furlong`"):
         rk.Record.read(tmp_path / "bad.txt", units="furlong")
-    for size, text in (({}, "give one size"), ({"pga": 1, "pgv": 1}, "give one size"), ({"pgx": 1.0}, "no measure `pgx`"), ({"pga": -1.0}, "out of range")):
+    for size, text in (
+        ({}, "give one size"),
+        ({"pga": 1, "pgv": 1}, "give one size"),
+        ({"pgx": 1.0}, "no measure `pgx`"),
+        ({"pga": -1.0}, "out of range"),
+        ({"pgv": 0.5, "sa_damping": 0.2}, "`pgv` has no damping; leave sa_damping out, or measure by sa or sa_g"),
+        ({"pgv": 0.5, "sa_period": 0.2}, "`pgv` has no period; leave sa_period out, or measure by sa or sa_g"),
+    ):
         with pytest.raises((TypeError, ValueError), match=text):
             record.scaled(**size)
     with pytest.raises(ValueError, match="give `column`"):

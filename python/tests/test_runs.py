@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import pickle
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -287,3 +288,37 @@ def test_a_pickle_whose_sliding_lacks_a_list_is_refused() -> None:
     damaged = pickle.dumps(run).replace(b'"flights":', b'"flightz":')
     with pytest.raises(ValueError, match="damaged"):
         pickle.loads(damaged)
+
+
+def test_peaks_are_those_of_the_summary_and_of_tables() -> None:
+    """A stack that leans beyond its support has a slenderness below zero, and is past its balance from the start."""
+    column = rk.Column([rk.Block(width=1.0, height=1.0, density=2000)] * 3)
+    run = rk.simulate(column, rk.pulse("half-sine", amplitude=1.0, omega=5.0), friction=0.8, slide=[0.0, 0.4, 0.4], t_end=0.5)
+    assert (run.alpha < 0).any()
+    shares = [np.inf if share == "infinite" else share for share in run.summary["peaks"]]
+    assert run.peaks.tolist() == shares and np.isinf(run.peaks).tolist() == (run.alpha < 0).tolist()
+    assert "-" not in re.search(r"largest \|θ\|/α.*?<td[^>]*>([^<]*)</td>", run._repr_html_())[1]
+    assert rk.simulate(run.scene, wanted="outcome").peaks.shape == (0,)
+
+
+def test_slides_of_a_run_without_rows_have_their_shape() -> None:
+    column = rk.Column.prisms(2, half_width=0.4, half_height=1.0)
+    run = rk.simulate(column, rk.pulse("half-sine", amplitude=8.0, omega=5.0), friction=0.3, t_end=1.0, rows=False)
+    assert run.slide.shape == run.gap.shape == (0, 2)
+    assert rk.simulate(run.scene, rows=False, friction=None).slide is None
+
+
+def test_events_have_all_that_events_json_has() -> None:
+    column = rk.Column.prisms(3, half_width=0.4, half_height=1.56)
+    run = rk.simulate(column, rk.pulse("sine-pulse", amplitude=7.4, omega=10.7), friction=0.3, eta=0.9, t_end=2.0)
+    events = json.loads(run.to_json())["events"]
+    assert len(events) == len(run.events) > 5 and any("interfaces" in event for event in events)
+    for (_, row), event in zip(run.events.iterrows(), events):
+        changed = event.get("interfaces") or ([event["interface"]] if "interface" in event else [])
+        assert ("" if pd.isna(row.interfaces) else row.interfaces) == " ".join(map(str, changed))
+        for number, block in enumerate(event["blocks"], start=1):
+            assert [row[f"x_{number}"], row[f"y_{number}"]] == block["place"]
+            assert [row[f"vx_before_{number}"], row[f"vy_before_{number}"]] == block["velocity_before"]
+            assert [row[f"vx_after_{number}"], row[f"vy_after_{number}"]] == block["velocity_after"]
+        for number, impulse in enumerate(event.get("impulses", []), start=1):
+            assert row[f"moment_impulse_{number}"] == impulse["moment"]

@@ -110,6 +110,17 @@ def test_an_error_names_file_line_key_and_remedy(tmp_path: Path) -> None:
     assert caught.value.file == str(tmp_path / "none.toml") and caught.value.line == 0
 
 
+def test_an_error_of_a_changed_scene_names_no_line_of_its_file(scenes: Path) -> None:
+    """Its text is made anew of its keys: a line of it is none of the file's."""
+    scene = rk.Scene.load(scenes / "two-drums-record.toml")
+    with pytest.raises(rk.SceneError, match="^<scene>, line ") as caught:
+        scene.replace(eta=1.5)
+    assert caught.value.file == "<scene>" and caught.value.key == "restitution.eta"
+    with pytest.raises(rk.SceneError, match="asked for by <scene>, line ") as caught:
+        scene.replace(keys={"excitation.horizontal.file": "none.AT2"})
+    assert caught.value.file == "<scene>" and caught.value.record == str(scenes.resolve() / "none.AT2")
+
+
 def test_several_faults_are_all_told_and_errors_are_pickled() -> None:
     with pytest.raises(rk.SceneError) as caught:
         rk.Scene(COLUMN, t_end=-1.0, rtol=1.0)

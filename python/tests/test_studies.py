@@ -643,3 +643,11 @@ def test_what_is_handed_out_is_a_copy() -> None:
     curve = rk.ida(COLUMN, rk.synthetic(range(3)), "pgv", [0.2, 0.4, 3.0], trust=False).fragility("uplift")
     curve.to_dict()["counts"].clear()
     assert len(curve.counts) == 3
+
+
+def test_a_study_of_the_repository_has_the_fragility_of_its_file(scenes: Path):
+    """Its file gives no layout: none is set, and none is asked for."""
+    study = rk.Study.load(scenes / "studies" / "statue-ida.toml")
+    curves = {state: study.fragility(state, replicates=0) for state in study.states}
+    assert list(curves) == ["uplift", "peak > 0.15", "peak > 0.35", "overturned"]
+    assert all(curve.layout == "stripes" for curve in curves.values())

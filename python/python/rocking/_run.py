@@ -165,12 +165,12 @@ class Run:
 
     @cached_property
     def slide(self) -> Array | None:
-        """Slides at the interfaces [m], shape (rows, blocks); None without friction, and where only the outcome is asked for."""
+        """Slides at the interfaces [m], shape (rows, blocks); None without friction."""
         return _fixed(self._response.slide())
 
     @cached_property
     def gap(self) -> Array | None:
-        """Gaps of interfaces in flight [m], shape (rows, blocks); None without friction, and where only the outcome is asked for."""
+        """Gaps of interfaces in flight [m], shape (rows, blocks); None without friction."""
         return _fixed(self._response.gap())
 
     @cached_property
@@ -199,18 +199,21 @@ class Run:
     def top(self) -> Array:
         """Displacement of the middle of the column's top in the frame of the ground [m], to the right and upwards, shape (rows, 2).
 
-        It counts from the place at t = 0, so that slides of the initial state are not in it.
+        It counts from the upright column, displaced by the slides of the initial state; where ``x`` and ``y`` place the blocks, from the aligned one.
         """
         return _fixed(self._response.top_displacement())
 
     @property
     def events(self) -> pd.DataFrame:
         """Impacts, openings and other events, a row each: ``t`` [s], ``kind``, ``interface``, patterns and modes, angles [rad], rates [rad/s] before and after,
-        impulses [N s], ``mirrored`` (whether the pattern after is the mirror image of that of ``mode``) and ``energy_lost``, the share of the kinetic
-        energy that an impact takes.
+        impulses [N s, N m s], ``mirrored`` (whether the pattern after is the mirror image of that of ``mode``) and ``energy_lost``, the share of the kinetic
+        energy that an impact takes. ``interfaces`` are all that changed in the instant, ``"1 3"`` for the first and the third, ``interface`` is the lowest.
+        ``theta_1``, ``omega_before_1``, ``omega_after_1`` are of the first block, ``normal_impulse_1``, ``tangential_impulse_1``, ``moment_impulse_1`` of the
+        first interface.
 
-        Where blocks slid or flew also slides [m] and the states of the interfaces, base first: ``(+>,0,f)`` is a first one open on its right corner that
-        slides to the right, a second one closed, a third in flight. The book's chapter Results explains all columns.
+        Where blocks slid or flew also slides ``slide_1`` [m], centroids ``x_1``, ``y_1`` [m] with their velocities ``vx_before_1``, ``vx_after_1``,
+        ``vy_before_1``, ``vy_after_1`` [m/s], and the states of the interfaces, base first: ``(+>,0,f)`` is a first one open on its right corner that
+        slides to the right, a second one closed, a third in flight. The book's chapter Results explains what the columns mean.
         """
         return self._events.copy()
 
@@ -288,8 +291,15 @@ class Run:
         return _fixed(self._response.peak_theta())
 
     @cached_property
+    def peaks(self) -> Array:
+        """Largest size of each angle over the slenderness of the stack from its block up, as ``peaks`` of sweeps; infinite where that stack does not stand
+        by itself; shape (blocks,); (0,) where only the outcome is asked for.
+        """
+        return _fixed(self._response.peaks())
+
+    @cached_property
     def alpha(self) -> Array:
-        """Slenderness of the stack that begins with each block [rad], as it stands at t = 0, initial slides included; shape (blocks,)."""
+        """Slenderness of the stack that begins with each block [rad], initial slides included, below zero where it leans beyond its support; shape (blocks,)."""
         return _fixed(np.array(self.scene._compiled.stacks()["alpha"]))
 
     @property
@@ -409,7 +419,7 @@ class Run:
         return self.figures()["time-history"] if len(self.t) else None
 
     def _repr_html_(self) -> str:
-        shares = ", ".join(f"{peak:.3g}" for peak in self.peak_theta / self.alpha) if len(self.peak_theta) else "not asked"
+        shares = ", ".join(f"{peak:.3g}" for peak in self.peaks) if len(self.peaks) else "not asked"
         facts = {
             "outcome": f"{self._lead}{self.outcome} ({self.status} at t = {self.t_final:.4g} s)",
             **({} if self._response.impacts is None else {"impacts": str(self.impacts)}),

@@ -387,7 +387,7 @@ class Scene:
 
     @classmethod
     def from_dict(cls, keys: Mapping[str, Any], *, file: str | os.PathLike[str] = WITHOUT_FILE) -> "Scene":
-        """Reads the keys of a scene file as a nested dictionary; ``file`` is named in errors, and records are found relative to it. Raises as :meth:`load`."""
+        """Reads the keys of a scene file as a nested dictionary; records are found relative to ``file``. Raises as :meth:`load`; errors name ``<scene>``."""
         if not isinstance(keys, Mapping):
             raise TypeError(f"keys are of {type(keys).__name__}; give a dictionary of the keys of a scene file")
         return cls._of(copied(keys), os.fspath(file))
@@ -403,7 +403,8 @@ class Scene:
         """The scene with other arguments; ``keys`` takes dotted ones such as ``{"block[2].mass": 900.0}``.
 
         Another ``column`` replaces the blocks, their ``size`` and the gravity, which is 9.81 m/s² unless the new column has one. None removes a key:
-        ``friction=None`` gives the scene without friction, ``keys={"excitation.vertical": None}`` without vertical motion.
+        ``friction=None`` gives the scene without friction, ``keys={"excitation.vertical": None}`` without vertical motion, which ``vertical=None``, as
+        ``horizontal=None`` and ``column=None``, leaves as it is.
 
         Raises
         ------

@@ -411,7 +411,7 @@ class Study:
         options.update({name: whole(name, options[name]) for name in ("replicates", "seed") if name in options})
         if "confidence" in options:
             options["confidence"] = number("confidence", options["confidence"])
-        if "layout" in options:
+        if options.get("layout") is not None:
             text("layout", options["layout"])
         found, statements = _rocking.fragility(runs, state, **options)
         return Fragility(json.loads(found), statements, self.measure, self.label)

@@ -11,7 +11,7 @@ class Trust:
     """How far a run is determined, by runs of almost the same scene, its companions (book, chapter Trust). Fields are those of ``trust`` in ``summary.json``."""
 
     outcome: str
-    """The verdict in words, as far as it is determined: ``stands``, ``stands up to the end of the run`` (the ground may still move then), ``overturns``,
+    """The verdict in words, as far as it is determined: ``stands``, ``stands up to the end of the run`` (the ground may still move, or blocks slide on, then), ``overturns``,
     ``collapses``, ``not determined``, or ``ends undetermined`` (a run with friction that has no answer)."""
     determined: bool
     """Whether the verdict is determined: it is certain within the horizon, and all companions have it."""
