@@ -146,6 +146,36 @@ fn rows_of_other_axes_are_kept_apart() {
     }
 }
 
+/// Another program may have put the columns of a table in another order: each is known by its name.
+#[test]
+fn columns_may_stand_in_any_order() {
+    let folder = Folder::new();
+    let names = ["index", "record", "column.alpha", "pgv", "outcome", "impacts", "truncated"];
+    let mut rows = vec![names.map(String::from)];
+    for (index, place) in (0..40).enumerate() {
+        let (record, level, alpha) = (place % 4, place / 4 % 5 + 1, if place < 20 { "0.15" } else { "0.3" });
+        let outcome = if level + record > 5 { "overturns" } else { "rocks" };
+        let level = format!("0.{level}");
+        let texts = [&index.to_string(), &format!("r{record}"), alpha, &level, outcome, "3", "false"];
+        rows.push(texts.map(String::from));
+    }
+    let told = |order: [usize; 7], rows: &[[String; 7]]| {
+        let line = |row: &[String; 7]| order.map(|place| row[place].as_str()).join(",");
+        folder.write("t.csv", rows.iter().map(line).collect::<Vec<_>>().join("\n") + "\n");
+        folder.says("fragility t.csv --state overturned --replicates 0 --json")
+    };
+    let as_written = told([0, 1, 2, 3, 4, 5, 6], &rows);
+    assert!(as_written.1.contains("2 values of `column.alpha`"), "{}", as_written.1);
+    for order in [[4, 0, 1, 2, 3, 5, 6], [3, 0, 4, 1, 5, 6, 2], [6, 5, 4, 3, 2, 1, 0]] {
+        assert_eq!(told(order, &rows), as_written, "{order:?}");
+    }
+    // The same run twice, with other results: once is meant.
+    let mut twice = rows;
+    twice.push(["39", "r3", "0.3", "0.5", "rocks", "4", "false"].map(String::from));
+    folder.write("t.csv", twice.iter().map(|row| row.join(",")).collect::<Vec<_>>().join("\n"));
+    folder.refused("fragility t.csv --state overturned", &["row 41", "give each run once"]);
+}
+
 /// A peak that is no number says nothing, and is not taken for a small one.
 #[test]
 fn peaks_are_numbers() {

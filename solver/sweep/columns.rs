@@ -83,7 +83,61 @@ pub enum Cell<'r> {
     Error(&'r PointError),
 }
 
+/// Columns of results, beside those of each block.
+const RESULTS: [Field; 13] = [
+    Field::Outcome,
+    Field::Impacts,
+    Field::Block,
+    Field::OverturnedAt,
+    Field::LastMode,
+    Field::Valid,
+    Field::MuDemand,
+    Field::MuDemandAtImpacts,
+    Field::MinNormal,
+    Field::Separations,
+    Field::Trust,
+    Field::Truncated,
+    Field::Error,
+];
+
+/// Columns of results that a study has beside those of a sweep.
+const RESULTS_OF_STUDIES: [&str; 2] = ["first_uplift", "largest_gap"];
+
+/// Whether a column of the table of a sweep or a study has results, by its name. All others say what was run: number, record, level, axes.
+pub fn is_result(column: &str) -> bool {
+    let is_of_block = |prefix: &str| column.strip_prefix(prefix).is_some_and(|number| number.parse::<usize>().is_ok());
+    RESULTS.iter().any(|field| field.word() == column)
+        || RESULTS_OF_STUDIES.contains(&column)
+        || is_of_block(PEAK)
+        || is_of_block(RESIDUAL_SLIDE)
+}
+
+/// Headings of the columns of each block and of each interface, before its number.
+const PEAK: &str = "peak_";
+const RESIDUAL_SLIDE: &str = "residual_slide_";
+
 impl Field {
+    /// The heading; of an axis or a block, nothing.
+    fn word(self) -> &'static str {
+        match self {
+            Field::Axis(_) | Field::Peak(_) | Field::ResidualSlide(_) => "",
+            Field::Index => "index",
+            Field::Outcome => "outcome",
+            Field::Impacts => "impacts",
+            Field::Block => "block",
+            Field::OverturnedAt => "overturned_at",
+            Field::LastMode => "last_mode",
+            Field::Valid => "valid",
+            Field::MuDemand => "mu_demand",
+            Field::MuDemandAtImpacts => "mu_demand_at_impacts",
+            Field::MinNormal => "min_normal",
+            Field::Separations => "separations",
+            Field::Trust => "trust",
+            Field::Truncated => "truncated",
+            Field::Error => "error",
+        }
+    }
+
     /// What the cells of the column hold; of an axis, what its values are is known to the sweep alone ([`Sweep::axes`]).
     pub fn kind(self) -> CellKind {
         match self {
@@ -165,26 +219,12 @@ impl Sweep {
     ///
     /// For an axis that the sweep does not have.
     pub fn heading(&self, field: Field) -> String {
-        let word = match field {
-            Field::Axis(place) => self.axes[place].key.as_str(),
-            Field::Peak(block) => return format!("peak_{}", block + 1),
-            Field::ResidualSlide(interface) => return format!("residual_slide_{}", interface + 1),
-            Field::Index => "index",
-            Field::Outcome => "outcome",
-            Field::Impacts => "impacts",
-            Field::Block => "block",
-            Field::OverturnedAt => "overturned_at",
-            Field::LastMode => "last_mode",
-            Field::Valid => "valid",
-            Field::MuDemand => "mu_demand",
-            Field::MuDemandAtImpacts => "mu_demand_at_impacts",
-            Field::MinNormal => "min_normal",
-            Field::Separations => "separations",
-            Field::Trust => "trust",
-            Field::Truncated => "truncated",
-            Field::Error => "error",
-        };
-        word.into()
+        match field {
+            Field::Axis(place) => self.axes[place].key.clone(),
+            Field::Peak(block) => format!("{PEAK}{}", block + 1),
+            Field::ResidualSlide(interface) => format!("{RESIDUAL_SLIDE}{}", interface + 1),
+            field => field.word().into(),
+        }
     }
 
     /// Number of blocks of the largest column. Numbers above [`MOST_BLOCKS`] are left out: their rows are errors.
@@ -193,5 +233,31 @@ impl Sweep {
         let counts = self.axes.iter().filter(|axis| axis.key == "column.blocks").flat_map(|axis| &axis.values);
         let counts = counts.filter_map(|count| count.to_string().parse().ok()).filter(|count| *count <= MOST_BLOCKS);
         Ok(counts.max().unwrap_or(base.column.len()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene_file::Template;
+    use crate::sweep::{Axis, Combine};
+
+    /// Results stand right of the axes in every table, and are known by their names alone.
+    #[test]
+    fn names_tell_results_from_settings() {
+        let scene = "friction = 0.5\n[column]\nblocks = 2\nhalf_width = 0.4\nhalf_height = 1.6\n[excitation.horizontal]\nkind = \"sine-pulse\"\namplitude = 3.0\nomega = 5.0\n";
+        for ask in Ask::ALL {
+            let template = Template::from_toml(scene.into(), "scene.toml".as_ref()).expect("TOML");
+            let axes = vec![
+                Axis { key: "eta".into(), values: Vec::new() },
+                Axis { key: "peak_uplift".into(), values: Vec::new() },
+            ];
+            let sweep = Sweep { template, axes, combine: Combine::Cartesian, ask };
+            let fields = sweep.fields().expect("a scene");
+            for (place, field) in fields.iter().enumerate() {
+                let heading = sweep.heading(*field);
+                assert_eq!(is_result(&heading), place > 2, "{heading}");
+            }
+        }
     }
 }

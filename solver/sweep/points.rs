@@ -408,7 +408,7 @@ impl Sweep {
         settings.reverse();
     }
 
-    /// The scene of a point.
+    /// The scene of a point as the sweep runs it: without rows, its options `wanted` and `record_forces` as [`Sweep::ask`] needs them.
     ///
     /// # Errors
     /// [`SceneFileError`]

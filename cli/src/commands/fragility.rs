@@ -12,6 +12,7 @@ use crate::{output, plot};
 use csv::StringRecord;
 use rocking::intensity::Intensity;
 use rocking::studies::{self, Cells, DEFAULT_STATES, Fit, Fragility, FragilityOptions, LimitState, Observation};
+use rocking::sweep::is_result;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::fmt::Write as _;
@@ -161,8 +162,8 @@ impl Pooling<'_> {
     fn add(&mut self, row: &StringRecord, number: usize) -> Result<(), String> {
         let columns = self.columns;
         // Studies with other records may be pooled: their runs have the same numbers.
-        let settings = || row.iter().take(columns.outcome).collect::<Vec<_>>().join(",");
-        if columns.has_index && !self.seen.insert(settings()) {
+        let settings = || columns.settings.iter().map(|place| &row[*place]).collect::<Vec<_>>().join(",");
+        if columns.index.is_some() && !self.seen.insert(settings()) {
             return Err(": the run stands in a row above as well; give each run once".into());
         }
         let record = columns.record_of(row, number);
@@ -201,7 +202,7 @@ impl Pooling<'_> {
     }
 }
 
-/// Columns before the outcome that are no axes.
+/// Settings that are no axes.
 const NO_AXES: [&str; 2] = ["index", "scale"];
 
 /// Whether a cell has a value: the same text, or the same number.
@@ -214,13 +215,15 @@ fn is_value(cell: &str, value: &str) -> bool {
 struct Columns {
     /// Header of the table.
     names: Vec<String>,
-    /// Whether the table numbers its runs.
-    has_index: bool,
+    /// The number of a run, in a table that numbers its runs.
+    index: Option<usize>,
+    /// What says which run a row is of: all columns but those of results, wherever they stand.
+    settings: Vec<usize>,
     /// Columns whose cells name the record of a run.
     records: Vec<usize>,
     /// The column with the level of the measure.
     level: usize,
-    /// Axes of a sweep that are neither the record nor the measure.
+    /// Settings that are neither the record nor the measure: other axes of a sweep.
     others: Vec<usize>,
     outcome: usize,
     uplift: Option<usize>,
@@ -235,8 +238,7 @@ struct Columns {
 impl Columns {
     /// The number of a run, in a table that numbers its runs.
     fn index(&self, row: &StringRecord) -> Option<usize> {
-        let place = self.names.iter().position(|name| name == "index")?;
-        row[place].parse().ok()
+        row[self.index?].parse().ok()
     }
 
     /// The columns with these names; without a measure, the level is the one column that has the name of a measure. The error says what is wrong
@@ -261,11 +263,13 @@ impl Columns {
             (1..=count).map(place).collect()
         };
         let records = studies::record_columns(&names);
+        let settings: Vec<usize> = (0..names.len()).filter(|place| !is_result(&names[*place])).collect();
         let is_other =
             |place: &usize| *place != level && !records.contains(place) && !NO_AXES.contains(&names[*place].as_str());
         Ok(Columns {
-            others: (0..outcome).filter(is_other).collect(),
-            has_index: column("index").is_some(),
+            others: settings.iter().copied().filter(is_other).collect(),
+            index: column("index"),
+            settings,
             records,
             level,
             outcome,
