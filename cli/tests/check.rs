@@ -220,7 +220,10 @@ fn the_threshold_is_that_of_the_interface_which_opens_first() {
     let leaning = "[[block]]\nhalf_width = 0.4\nhalf_height = 0.5\n".repeat(3)
         + "[initial]\nslide = [0.0, -0.39, -0.39]\n[excitation.horizontal]\nkind = \"half-sine\"\namplitude_g = 0.38\nomega = 6.0\n[solver]\nt_end = 2\n";
     let told = Folder::with("scene.toml", &leaning).succeeds("check scene.toml");
-    assert_has(&told, &["the first opens at 0.0000 g towards its weaker side"]);
+    assert_has(
+        &told,
+        &["the first at t = 0.0000 s: a stack that leans beyond its support, which the ground does not hold then"],
+    );
 }
 
 #[test]
@@ -306,4 +309,48 @@ fn a_column_taller_than_any_is_noted() {
         let told = Folder::with("scene.toml", &scene).succeeds("check scene.toml");
         assert_eq!(told.contains("note: no column is as tall; sizes are in m"), is_noted, "{told}");
     }
+}
+
+/// Under exactly the acceleration that opens it, or with its weight exactly above its edge, a block stays at rest: rounding opens nothing.
+#[test]
+fn rounding_opens_nothing() {
+    let folder = Folder::new();
+    let both = |scene: &str| {
+        folder.write("scene.toml", scene);
+        let checked = folder.answers("check scene.toml --json");
+        (checked["opens"].clone(), folder.succeeds("run scene.toml --no-trust --out out"))
+    };
+    for (half_width, half_height) in [(0.07, 0.6), (0.25, 1.9), (0.1, 0.3), (0.4, 1.56)] {
+        let block = format!("[[block]]\nhalf_width = {half_width}\nhalf_height = {half_height}\n");
+        let pulse = |share: f64| {
+            let amplitude = share * 9.81 * half_width / half_height;
+            format!(
+                "{block}[excitation.horizontal]\nkind = \"rectangular\"\namplitude = {amplitude:?}\nstart = 0.5\nduration = 0.1\n[solver]\nt_end = 3\n"
+            )
+        };
+        let (opens, told) = both(&pulse(1.0));
+        assert!(opens == serde_json::json!([]) && told.starts_with("no uplift"), "{half_width}: {opens} {told}");
+        let (opens, told) = both(&pulse(1.0 + 1e-9));
+        assert!(opens == serde_json::json!([1]) && told.starts_with("rocks"), "{half_width}: {opens} {told}");
+    }
+    let two = |slide: f64| {
+        format!(
+            "[[block]]\nhalf_width = 0.5\nhalf_height = 0.5\n[[block]]\nhalf_width = 0.4\nhalf_height = 0.5\n[initial]\nslide = [0.0, {slide}]\n[excitation.horizontal]\nkind = \"rectangular\"\namplitude = 0.6\nduration = 1.0\n[solver]\nt_end = 3\n"
+        )
+    };
+    let (opens, told) = both(&two(0.5));
+    assert!(opens == serde_json::json!([]) && told.starts_with("no uplift"), "{opens} {told}");
+    // The ground holds a stack that leans, and lets it fall when the pulse ends.
+    let (opens, told) = both(&two(0.52));
+    assert!(opens == serde_json::json!([2]) && told.starts_with("overturns"), "{opens} {told}");
+    let told = folder.succeeds("check scene.toml");
+    assert!(told.contains("interface(s) 2 of the column at rest open, the first at t = 1.0000 s: a stack that leans beyond its support"), "{told}");
+}
+
+/// With `μ = b/h` a block slides and opens at the same acceleration: neither is before the other.
+#[test]
+fn a_block_may_slide_and_open_at_once() {
+    let scene = "friction = 0.3\n[[block]]\nhalf_width = 0.3\nhalf_height = 1.0\n[excitation.horizontal]\nkind = \"sine-pulse\"\namplitude_g = 0.5\nomega = 5.0\n";
+    let told = Folder::with("scene.toml", scene).succeeds("check scene.toml");
+    assert!(told.contains("interface 1 slides and opens at 0.3 g\n"), "{told}");
 }

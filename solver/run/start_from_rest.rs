@@ -190,8 +190,8 @@ impl Scene {
         let in_segment = |segment: &Segment, interface: usize| {
             let guards = SIDES.map(|side| guard(interface, side));
             let at_start = GroundWithBounds::at(segment, gravity, segment.start);
-            // Where the ground jumps, a guard may be below zero without having fallen there.
-            if guards.iter().any(|guard| at_start.value(*guard) < 0.0) {
+            // Where the ground jumps, a guard may be below zero without having fallen there; less than rounding leaves the column at rest.
+            if guards.iter().any(|guard| at_start.value(*guard) < -at_start.rounding(*guard)) {
                 return Some(segment.start);
             }
             let named = || guards.into_iter().map(|guard| (guard, ()));
@@ -256,18 +256,21 @@ fn least_margin(problem: &Problem, segment: usize, t: f64) -> f64 {
         let margin = |side: Interface, push: f64| {
             let [lever, height] = arm(column, i, side);
             let arms = [lever * ground.gravity, height * push];
-            (arms[0] - arms[1]) / (arms[0].abs() + arms[1].abs())
+            // Zero where neither acts about the corner.
+            (arms[0] - arms[1]) / (arms[0].abs() + arms[1].abs()).max(f64::MIN_POSITIVE)
         };
         margin(side, ground.x.abs()).min(margin(side.mirror(), -ground.x.abs()))
     };
     (0..column.len()).map(margin).fold(f64::INFINITY, f64::min)
 }
 
-/// Arms of the weight and of the ground's push about a corner of an interface: lever of the stack's centre of gravity and its height `[m]`.
+/// Arms of the weight and of the ground's push about a corner of an interface: lever of the stack's centre of gravity and its height `[m]`. A lever that is
+/// rounding alone is zero: the weight acts through the corner.
 fn arm(column: &Column, interface: usize, side: Interface) -> [f64; 2] {
-    let sign = f64::from(side.sign());
-    let lever = column.contact_half_width(interface) - sign * column.centroid_offset(interface);
-    [lever, column.centroid_height(interface)]
+    let (half_width, offset) = (column.contact_half_width(interface), column.centroid_offset(interface));
+    let lever = half_width - f64::from(side.sign()) * offset;
+    let is_rounding = lever.abs() <= TOUCH * (half_width + offset.abs());
+    [if is_rounding { 0.0 } else { lever }, column.centroid_height(interface)]
 }
 
 /// The ground's acceleration at an instant, its rate, and bounds of its second derivative, horizontal and vertical.
@@ -303,14 +306,19 @@ impl GroundWithBounds {
             + slack * acceleration_scale_at_rest(self.gravity, self.ground)
     }
 
+    /// What rounding leaves of a guard that is zero at this instant: [`TOUCH`] of its terms.
+    fn rounding(&self, RestGuard { arm: [holding, tipping], .. }: RestGuard) -> f64 {
+        TOUCH * (holding.abs() * self.ground.gravity.abs().max(self.gravity) + tipping * self.ground.x.abs())
+    }
+
     /// For how long after this instant a guard that is zero here to rounding only touches zero `[s]`: it is above zero again by then, and has been below by
     /// less than [`TOUCH`]. `None` if it falls below zero, and for guards with slack.
     fn time_past_touch(&self, segment: &Segment, guard: RestGuard) -> Option<f64> {
-        let GroundWithBounds { t, ground, rates, bends, gravity } = self;
+        let GroundWithBounds { t, rates, bends, gravity, .. } = self;
         let RestGuard { arm: [holding, tipping], side, slack } = guard;
         let slope = holding * rates[1] + f64::from(side.sign()) * tipping * rates[0];
         let bend = holding.abs() * bends[1] + tipping * bends[0];
-        let depth = TOUCH * (holding.abs() * ground.gravity.abs().max(*gravity) + tipping * ground.x.abs());
+        let depth = self.rounding(guard);
         if slack > 0.0 || slope * slope > 2.0 * bend * depth {
             return None;
         }
@@ -319,8 +327,8 @@ impl GroundWithBounds {
         (t + past > *t && t + past < segment.end && is_above()).then_some(past)
     }
 
-    /// A time within which a guard does not fall below zero `[s]`. Zero if it falls below zero at this instant, or is below its slack. `None` if it never
-    /// falls below zero.
+    /// A time within which a guard does not fall below zero `[s]`. Zero if it falls below zero at this instant, or if a guard with slack is below
+    /// zero already. `None` if it never falls below zero.
     fn step_to_zero(&self, guard: RestGuard) -> Option<f64> {
         let GroundWithBounds { t, ground, rates, bends, .. } = self;
         let RestGuard { arm: [holding, tipping], side, slack } = guard;

@@ -44,13 +44,16 @@ struct Findings {
     opens: Vec<usize>,
     /// When the first of them opens `[s]`.
     first_opening: Option<f64>,
+    /// When each interface opens `[s]`, base first.
+    #[serde(skip)]
+    openings: Vec<Option<f64>>,
     method: &'static str,
     rows: u64,
     /// Warnings of the readers of record files.
     warnings: Vec<String>,
 }
 
-/// Rounding of a factor of restitution times Housner's ratio.
+/// Rounding of ratios that may be one: a factor of restitution times Housner's ratio, accelerations that slide and that open.
 const ROUNDING_OF_RATIOS: f64 = 1e-12;
 
 /// What gives way first at an interface: the contact slides, or it opens. The stack above counts as one body.
@@ -137,7 +140,10 @@ impl ContactFindings {
                 "interface {interface} slides at {slides} g, and opens{side} at {opens} g; under this ground motion {first}"
             );
         };
-        if self.slides_at <= self.opens_at {
+        if (self.slides_at - self.opens_at).abs() <= ROUNDING_OF_RATIOS * self.opens_at {
+            return format!("interface {interface} slides and opens at {opens} g");
+        }
+        if self.slides_at < self.opens_at {
             let both = match at_pga {
                 "slides" => "; at the PGA it slides",
                 _ => "",
@@ -228,6 +234,7 @@ impl Findings {
                     })
                 })
                 .collect(),
+            openings,
             stacks,
             restitution_factors: scene.restitution.factors(column),
             horizontal,
@@ -446,8 +453,15 @@ impl Findings {
                 let [pga, lowest] = [motion.pga, lowest].map(|acceleration| acceleration / gravity);
                 let is_displaced = scene.column.slides().iter().any(|slide| *slide != 0.0);
                 let weaker = if is_displaced { " towards its weaker side" } else { "" };
-                let first = first_threshold(&scene.column, &motion.motion, &scene.openings_at_rest());
+                let first = first_threshold(&scene.column, &motion.motion, &self.openings);
+                let is_first = |stack: &thresholds::Row| self.openings[stack.interface - 1] == self.first_opening;
+                let leaning = self.stacks.iter().find(|stack| stack.uplift_acceleration <= 0.0 && is_first(stack));
                 match &*interfaces {
+                    _ if self.first_opening.is_some() && leaning.is_some() => writeln!(
+                        text,
+                        "  interface(s) {interfaces} of the column at rest open, the first at t = {:.4} s: a stack that leans beyond its support, which the ground does not hold then",
+                        self.first_opening.unwrap_or_default()
+                    ),
                     "" if is_displaced && pga >= lowest => writeln!(
                         text,
                         "  {pga:.4} g opens no interface of the column at rest: the peak acts towards its stronger side; towards the weaker one {lowest:.4} g is enough"
