@@ -9,7 +9,7 @@
 
 use crate::error::RecordError;
 use crate::piece::Piece;
-use crate::record::Record;
+use crate::record::{Record, finite_factor};
 use crate::spans::{Span, Spans, overlay};
 use serde::ser::SerializeStruct;
 use serde::{Deserialize, Serialize, Serializer};
@@ -196,14 +196,16 @@ impl Motion {
     /// The motion with its acceleration multiplied by a factor.
     ///
     /// # Errors
-    /// [`RecordError::Acceleration`] for samples of a record out of range.
+    /// [`RecordError::OutOfRange`] for a factor that is not finite, [`RecordError::Acceleration`] for samples of a record out of range.
     ///
     /// ```
     /// let pulse = rocking_ground::Motion::SinePulse { amplitude: 2.0, omega: 8.0, start: 0.0 };
     /// assert_eq!(pulse.clone().scaled(1.5)?.value(0.1), 1.5 * pulse.value(0.1));
+    /// assert!(pulse.scaled(f64::NAN).is_err());
     /// # Ok::<(), rocking_ground::RecordError>(())
     /// ```
     pub fn scaled(mut self, factor: f64) -> Result<Motion, RecordError> {
+        finite_factor(factor)?;
         match &mut self {
             Motion::Record(record) => return record.clone().scaled(factor).map(Motion::Record),
             Motion::Sum { terms } => {

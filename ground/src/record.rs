@@ -120,6 +120,14 @@ impl TryFrom<Unchecked> for Record {
     }
 }
 
+/// Refuses a factor that is not finite.
+pub(crate) fn finite_factor(factor: f64) -> Result<(), RecordError> {
+    match factor.is_finite() {
+        true => Ok(()),
+        false => Err(RecordError::OutOfRange { name: "factor", value: factor, wanted: "a finite number" }),
+    }
+}
+
 impl Record {
     /// A record of `accel [m/s²]` every `dt [s]` from `start [s]`.
     ///
@@ -272,9 +280,7 @@ impl Record {
     /// # Errors
     /// [`RecordError::OutOfRange`] for a factor that is not finite, [`RecordError::Acceleration`] for a product out of range.
     pub fn scaled(self, factor: f64) -> Result<Record, RecordError> {
-        if !factor.is_finite() {
-            return Err(RecordError::OutOfRange { name: "factor", value: factor, wanted: "a finite number" });
-        }
+        finite_factor(factor)?;
         let scaled = Record::new(self.accel.iter().map(|a| a * factor).collect(), self.dt, self.start)?;
         let Record { source, first_sample, warnings, .. } = self;
         Ok(Record { scale: self.scale * factor, source, first_sample, warnings, ..scaled })

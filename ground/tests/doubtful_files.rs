@@ -546,3 +546,17 @@ fn a_record_of_zeros_has_a_warning() {
     let file = read(&table("t [s],a [g]", |k, _| seconds(k, 0.0)), &options());
     assert!(file.warnings.iter().any(|warning| warning.contains("all samples are zero")), "{:?}", file.warnings);
 }
+
+/// A comma in a remark makes no headings of it where the commas of the rows may be decimal ones: whole parts would be read as the record.
+#[test]
+fn decimal_commas_below_a_remark_are_no_second_column() {
+    let rows: String =
+        samples().iter().map(|a| format!("{}\n", format!("{:.1}", 10.0 * a).replace('.', ","))).collect();
+    for remark in ["# acceleration in m/s2, dt = 0.005 s", "% acc [m/s2], acc [m/s2]", "# acceleration in m/s2"] {
+        let told = refused(&format!("{remark}\n{rows}"), &options());
+        assert!(told.contains("column"), "{told}");
+    }
+    // Times say that there are two columns.
+    let pairs = table("# time [s], acceleration [m/s2]", |k, a| format!("{k},{}", (100.0 * a).round()));
+    assert!((read(&pairs, &options()).dt - 1.0).abs() < 1e-12);
+}

@@ -31,8 +31,8 @@ const UNITS: [usize; 2] = [2, 1];
 /// Place of the azimuth among the integers `[°]`. The value 400 means up, 401 down.
 const AZIMUTH: usize = 53;
 
-/// Places of the sampling interval among the reals `[ms]`: 61 by the format's table, 60 in files that count from 1. Place 33 holds the
-/// interval of the recorder, which processing may have changed.
+/// Places, from 0, of the sampling interval among the reals `[ms]`: 61 by the format's table; 60 in files whose writers took that number for one counted
+/// from 1. Place 33 holds the interval of the recorder, which processing may have changed.
 const INTERVALS: [usize; 3] = [61, 60, 33];
 
 /// Place of the peak among the reals. The peak is in the unit of the samples.

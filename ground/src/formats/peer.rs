@@ -156,8 +156,8 @@ fn unit(above: &[&str], options: &TextOptions) -> Result<Option<(usize, Accelera
     Ok(None)
 }
 
-/// Event, station and component of the second line, or of the one below the mark of old headers: `event, date, station,
-/// component`, separated by commas.
+/// `[event, station, component]` of the line `event, date, station, component`; all before the station is the event. It is the second line, or the one below
+/// the mark of old headers.
 fn event(above: &[&str]) -> [String; 3] {
     let old = above.iter().position(|line| line.to_ascii_uppercase().contains("OLD HEADERS FOLLOW"));
     let line = above.get(old.map_or(1, |old| old + 1)).map(|line| tidy(line)).unwrap_or_default();

@@ -54,7 +54,11 @@ impl Rows {
         let header = options.skip_rows..rows.lines[0] - 1;
         rows.headings = headings
             .filter(|(_, headings)| !headings.is_empty())
-            .or_else(|| remark_with_headings(lines, header.clone(), rows.columns))
+            .or_else(|| {
+                let found = remark_with_headings(lines, header.clone(), rows.columns);
+                // Rows `2,3` may be numbers with a decimal comma below a sentence with a comma, unless it names times.
+                found.filter(|(_, names)| names[0].is_surely_time() || !are_single_commas(&body[first..]))
+            })
             .unwrap_or_default();
         let text = || header.clone().map(|index| (index + 1, lines[index]));
         rows.stated_units = statement::units(text().filter(|(line, _)| *line != rows.headings.0));
@@ -173,17 +177,24 @@ fn uneven_row(line: usize, found: usize, expected: usize) -> RecordError {
     Entry { line, text: "", remedy }.wrong(format!("{found} number(s) where the first row has {expected}"))
 }
 
-/// Refuses rows of one number with a decimal comma each, or of two whole numbers: nothing tells which.
+/// A row of one cell, or of more.
+fn cell(row: &str) -> &str {
+    row.trim().trim_end_matches(';').trim_end()
+}
+
+/// Whether each row is one number with a decimal comma, or two whole numbers: nothing tells which.
+fn are_single_commas(body: &[(usize, &str)]) -> bool {
+    body.iter().all(|(_, row)| has_decimal_comma(cell(row)))
+}
+
+/// Refuses rows of one number with a decimal comma each, or of two whole numbers.
 fn refuse_single_commas(body: &[(usize, &str)]) -> Result<(), RecordError> {
-    let cells = || body.iter().map(|(_, text)| text.trim().trim_end_matches(';').trim_end());
-    match cells().next() {
-        Some(text) if cells().all(has_decimal_comma) => {
-            let (line, row) = body[0];
-            let column = row.chars().take_while(|c| c.is_whitespace()).count() + 1;
-            Err(comma_refused(line, Word { column, text }))
-        }
-        _ => Ok(()),
+    if !are_single_commas(body) {
+        return Ok(());
     }
+    let (line, row) = body[0];
+    let column = row.chars().take_while(|c| c.is_whitespace()).count() + 1;
+    Err(comma_refused(line, Word { column, text: cell(row) }))
 }
 
 /// Refuses numbers of which the first one is their number, or those of a column times, as samples that fill row after row.
