@@ -262,8 +262,8 @@ impl Column {
     /// A column of these blocks, base first, under `gravity [m/s²]`.
     ///
     /// # Errors
-    /// [`ColumnError`] if there is no block, or more than [`MOST_BLOCKS`], a number is not finite and above zero, or a centroid is outside its block. The
-    /// top block may end in an edge.
+    /// [`ColumnError`] if there is no block, or more than [`MOST_BLOCKS`]; if a number is not finite or not above zero (the top of the top block may be an
+    /// edge, of no width); if a centroid is outside its block.
     pub fn new(blocks: Vec<Block>, gravity: f64) -> Result<Column, ColumnError> {
         if blocks.is_empty() {
             return Err(ColumnError::Empty);

@@ -104,7 +104,7 @@ pub enum Wanted {
     /// History, events, peaks, forces.
     #[default]
     Everything,
-    /// Whether and how the column overturns. There are no rows, events, times in modes (with friction these are there), peaks or forces. Without friction
+    /// Whether and how the column overturns. Nothing else is recorded: no rows, events, peaks or forces, and times in modes only with friction. Without friction
     /// the run ends as soon as it is certain that the column does not overturn ([`crate::StopReason::Stands`]; the proof is in [`crate::outcome`]).
     Outcome,
     /// Whether the column overturns, and nothing else. As [`Wanted::Outcome`]; in addition, the run of one block on a ground without vertical motion

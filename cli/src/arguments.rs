@@ -53,8 +53,8 @@ pub enum Command {
     },
     /// Run a scene and write summary.json, response.csv and events.json.
     ///
-    /// Figures (time-history, phase-portrait, slides, energy and forces, .svg, .png and .pdf) and report.html of an earlier run are removed from the
-    /// folder: they would show another run. Numbers in JSON that are not finite are the words "infinite", "-infinite" and "not a
+    /// Figures (time-history, phase-portrait, slides, energy and forces, .svg, .png and .pdf) and report.html of an earlier run in the folder are removed
+    /// first: they would show another run. Numbers in JSON that are not finite are the words "infinite", "-infinite" and "not a
     /// number". Regular files are read up to a size: scenes, sweeps and their records up to 64 MiB, files of a run up to 1 GiB.
     Run(Run),
     /// Draw the figures of a run: time-history, phase-portrait, energy, forces, and slides where blocks slide; of the table of a sweep its spectrum, of a study its curves.
@@ -132,7 +132,7 @@ pub enum Command {
     /// Run many scenes made from one by axes over its keys; a table with a row each.
     ///
     /// A sweep that was interrupted continues when it is started again. A run ends when its outcome is certain unless the sweep
-    /// asks for peaks: the impacts of such a run are not all there, and their cell is blank. A sweep without any result exits with 1.
+    /// asks for peaks. The number of impacts of a run that may have ended early is not known: its cell is blank. A sweep without any result exits with 1.
     ///
     /// Of axes that are distributions it prints the probability that the column is lost, and writes TABLE-probability.csv.
     Sweep(Sweep),
@@ -146,7 +146,7 @@ pub enum Command {
     Ida(Ida),
     /// Fragility curves of a table that `rocking ida` has written, or a sweep with `ask = "peaks"` or `"slides"` over records and a measure.
     ///
-    /// Writes TABLE-fragility.csv and TABLE-shares.csv beside the table.
+    /// Writes TABLE-fragility.csv and TABLE-shares.csv beside the table; with `--where`, TABLE-where-fragility.csv and TABLE-where-shares.csv.
     Fragility(Fragility),
     /// Join the tables of all shards of a sweep.
     ///
@@ -248,7 +248,7 @@ pub struct Record {
     #[arg(long, value_name = "F", conflicts_with_all = ["pga", "scale_to"], value_parser = finite)]
     pub scale: Option<f64>,
     /// Scale to this peak, in g.
-    #[arg(long, value_name = "G", value_parser = positive)]
+    #[arg(long = "pga-g", alias = "pga", value_name = "G", value_parser = positive)]
     pub pga: Option<f64>,
     /// Scale to a size of any measure: pga, pga_g, pgv, pgd, arias, cav, `sa(PERIOD)`, `sa_g(PERIOD DAMPING)`; pga_uplift and pgv_uplift with --scene.
     #[arg(long, value_name = "MEASURE=SIZE", conflicts_with = "pga", value_parser = target)]

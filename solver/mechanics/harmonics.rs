@@ -18,9 +18,9 @@ pub(crate) struct Harmonics {
 /// `1.2^19 / 19! < 3e-16`. Longer pieces lose digits, shorter ones cost more pieces.
 const LONGEST_WAY: f64 = 0.6;
 
-/// A margin is critical up to this share of its terms, where rounding of the terms decides: in very slender columns, and in any column about
-/// to open. If the share were smaller, openings would be found in the wrong place; if it were larger, more would be searched for that could be
-/// computed.
+/// A margin below this share of its terms is critical: rounding of the terms decides its sign. So it is in very slender columns, and in any column about
+/// to open. If the share were smaller, openings would be found in the wrong place; if it were larger, more openings would be searched for step by step
+/// that have a closed form.
 const SHARE_OF_ROUNDING: f64 = 1e-9;
 
 impl Harmonics {

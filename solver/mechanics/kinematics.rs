@@ -292,7 +292,8 @@ impl<'a, S: Size> Posture<'a, S> {
         result
     }
 
-    /// Contact forces on the stacks above, from accelerations of the blocks less gravity `[m/s²]`, `[rad/s²]`. From jumps of velocity: impulses.
+    /// Resultant at each interface on the stack above it, from the accelerations of the blocks minus that of gravity `[m/s²]`, `[rad/s²]`; from jumps of
+    /// velocity, impulses.
     /// docs/book/model.md, section 4.
     #[inline(always)]
     pub fn resultants(&self, linear: &[Vec2], angular: &[f64]) -> S::List<ContactForce> {
@@ -477,8 +478,8 @@ mod tests {
         }
     }
 
-    /// In every mode of four unequal blocks and its mirror image, seen from the face below, the base of each block is where a turn
-    /// about its pivot puts it; where the interface is closed, on the face.
+    /// The base of each block, seen from the face below, is turned about its pivot; on a closed interface it lies on the face. All modes of four unequal
+    /// blocks, and their mirror images.
     #[test]
     fn outlines_touch_the_face_below_at_the_pivot() {
         let sizes = [(0.5, 0.4), (0.4, 0.6), (0.4, 0.3), (0.6, 0.2)];

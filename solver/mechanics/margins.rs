@@ -143,8 +143,8 @@ impl Margins {
         }
     }
 
-    /// Whether the closed interface of this index (among the closed ones, base first) opens within a time `reach` from the start of the last
-    /// attempt. `ground` has the coefficients of the horizontal ground acceleration and of the effective gravity.
+    /// What the series say about the opening of the closed interface of this index (among the closed ones, base first) within a time `reach` from the start
+    /// of the last attempt. `ground` has the coefficients of the horizontal ground acceleration and of the effective gravity.
     pub fn opening<V: StateVector, L: StateVector>(
         &self,
         index: usize,

@@ -1,5 +1,5 @@
-//! When the next event is to be expected, from the second derivatives at the start of a step. A step far beyond it would take orders of a series that
-//! only its far end needs. The step's guards decide where the event is.
+//! The time of the next event, estimated from the second derivatives at the start of a step. A step far beyond it would need a series of higher order for
+//! a part that is thrown away. The step's guards, not this estimate, locate the event.
 
 /// Ratio of a step to the time of the expected event. If it were smaller, the event would fall into the next step more
 /// often; if larger, the step would take more orders.

@@ -33,6 +33,9 @@ pub(super) fn largest_gap(column: &Column, response: &Response) -> f64 {
     knots.sort_by(|a, b| a.t.total_cmp(&b.t));
     let mut largest = response.sliding.as_ref().map_or(0.0, |sliding| sliding.highest_flight);
     for interface in 0..column.len() {
+        // Alone where a run ends before its second row.
+        let first = knots.first().map_or(0.0, |knot| relative(knot.theta, interface).abs());
+        largest = largest.max(of(interface, first));
         for pair in knots.windows(2) {
             let [from, to] = [&pair[0], &pair[1]];
             let h = to.t - from.t;
@@ -80,6 +83,12 @@ mod tests {
         scene.initial.theta = vec![0.1];
         let response = simulate(&Scene { output_dt: Some(0.01), ..scene.clone() }).expect("runs");
         assert!((largest_gap(&scene.column, &response) - 0.8 * 0.1_f64.sin()).abs() < 1e-15);
+        // A run that ends before its second row has the first one alone.
+        let one_row = Scene { output_dt: Some(10.0), ..scene.clone() };
+        let mut alone = simulate(&one_row).expect("runs");
+        alone.events.clear();
+        assert_eq!(alone.samples.len(), 1);
+        assert!((largest_gap(&scene.column, &alone) - 0.8 * 0.1_f64.sin()).abs() < 1e-15);
         scene.initial.theta = vec![1e-3];
         scene.initial.omega = vec![0.2];
         let response = simulate(&Scene { output_dt: Some(0.01), ..scene.clone() }).expect("runs");

@@ -316,9 +316,9 @@ impl Ida {
         scene.options.t_end = last + self.free_swing;
         scene.options.wanted = Wanted::Everything;
         scene.options.record_forces = false;
-        let p = scene.column.stack(scene.column.len() - 1).frequency_parameter();
-        // The interval between samples is a whole number of row intervals, so that every kink of the acceleration is at a row (but for `MOST_ROWS`).
-        let longest = LONGEST_ROW_INTERVAL.min(ROW_INTERVAL_OF_P / p);
+        // The interval between samples of the horizontal component is a whole number of row intervals: its kinks are at rows, but for a start between rows, and
+        // for `MOST_ROWS`.
+        let longest = LONGEST_ROW_INTERVAL.min(ROW_INTERVAL_OF_P / scene.column.largest_frequency_parameter());
         let interval = horizontal.dt() / (horizontal.dt() / longest).ceil();
         scene.set_rows(Some(interval.max(scene.options.t_end / MOST_ROWS)));
         Ok(scene)

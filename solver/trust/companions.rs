@@ -27,8 +27,8 @@ pub(super) const LARGEST_CHANGE: f64 = 1e-6;
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Change {
-    /// Tolerances and the angle of the lowest hop that is followed multiplied by this factor; the length of the steps of a method without step control by
-    /// its fourth root.
+    /// Tolerances and the angle of the lowest hop that is followed multiplied by this factor, `rtol` and the angle down to 1e-14; the length of the steps of a
+    /// method without step control multiplied by its fourth root.
     Tolerance(f64),
     /// Ground motion, initial angles, rates and velocities multiplied by one plus this; blocks placed by their centroids keep their angles.
     Excitation(f64),

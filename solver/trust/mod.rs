@@ -63,7 +63,7 @@ const SPAN_OF_ROWS: f64 = 2.0;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Trust {
-    /// The verdict in words if it is determined: `stands`, `stands up to the end of the run` (the ground still moves then), `overturns`, `collapses`;
+    /// The verdict in words if it is determined: `stands`, `stands up to the end of the run` (the ground still moves, or blocks slide on, then), `overturns`, `collapses`;
     /// otherwise `not determined`, or `ends undetermined` where no motion follows from the laws of contact.
     pub outcome: String,
     /// Whether the verdict of the run is determined: certain within the horizon, and the same for all companions.
@@ -171,7 +171,8 @@ pub fn follow(scene: &Scene) -> Result<(Response, Trust), SolveError> {
     Ok((response, trust))
 }
 
-/// Runs the companions of a finished run. On one thread this takes 7 to 30 times as long as the run, up to 70 times where nine are too few; companions run
+/// Runs the companions of a finished run: the response of this scene with [`Wanted::Everything`](crate::Wanted::Everything). With one that ended early,
+/// where its outcome was certain, companions are compared up to that time alone. On one thread this takes 7 to 30 times as long as the run, up to 70 times where nine are too few; companions run
 /// on all threads of the present rayon pool.
 ///
 /// # Errors

@@ -114,8 +114,8 @@ fn filled(
     Ok((table, resumed))
 }
 
-/// Draws the curves of a finished table into `picture`, and the fragility into a file beside `picture`: of the limit states, and with the bands, of the table of
-/// fragility curves beside the table, or of the usual ones where there is no such table.
+/// Draws the curves of a finished table into `picture`, and its fragility into a file beside `picture`. Limit states and bands are those of the table of
+/// fragility curves beside the table, if there is one; otherwise the usual ones.
 /// Returns the names of both files, with captions. `None` for a table that cannot be read or is not of a study.
 pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<Option<String>, Failure> {
     // A table that cannot be read is left to `spectrum::draw`, which reports the failure.

@@ -201,7 +201,7 @@ pub struct Description {
     /// Time from the first sample to the last `[s]`; in JSON it stands among the measures.
     #[serde(skip)]
     pub duration: f64,
-    /// Factor of the samples by `--scale`, `--pga` or `--scale-to`, dimensionless.
+    /// Factor of the samples by `--scale`, `--pga-g` or `--scale-to`, dimensionless.
     pub scale: f64,
     /// One g `[m/s²]`.
     pub gravity: f64,

@@ -50,8 +50,8 @@ pub fn plot(
     print(&draw(table, &picture, paper)?)
 }
 
-/// Draws a table into `picture`. A spectrum over two axes has a second figure, the least value that overturns, and curves of a table with slides have one of
-/// these: their files stand beside `picture`. Returns the names of the files written, with captions.
+/// Draws a table into `picture`. A spectrum over two axes has a second figure, of the least value that overturns; curves of a table with slides have a second
+/// one, of the slides. The second figure stands beside `picture`. Returns the names of the files written, with captions.
 pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<String, Failure> {
     let mut text = String::new();
     let figures = figures(table, paper).map_err(at(Failure::Spectrum, table))?;

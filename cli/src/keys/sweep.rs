@@ -95,7 +95,7 @@ pub struct Range {
 #[derive(JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Folder {
-    /// folder beside the base scene; an axis of the key `file`
+    /// folder beside the base scene; an axis of the key `file`, or of the `record` of a station
     pub folder: String,
 }
 

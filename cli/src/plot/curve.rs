@@ -90,8 +90,8 @@ const MOST_SQUARES: f64 = 10_000.0;
 pub struct Ink(HashSet<[i32; 2]>);
 
 impl Ink {
-    /// Parts of a curve of any shape that run through squares without ink. These squares have ink from then on: a motion that repeats
-    /// itself a thousand times is drawn once.
+    /// Marks the squares that a curve of any shape runs through, and returns the parts of the curve in squares that had no ink: a motion that repeats itself
+    /// a thousand times is drawn once.
     pub fn new_parts(&mut self, run: &[Point]) -> Vec<Vec<Point>> {
         let mut parts: Vec<Vec<Point>> = Vec::new();
         let mut joined = false;

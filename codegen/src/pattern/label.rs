@@ -13,10 +13,7 @@ pub struct ModeLabel {
 }
 
 impl ModeLabel {
-    /// Reads `k.j`.
-    ///
-    /// # Errors
-    /// `None` if the text is not two whole numbers above zero joined by a point.
+    /// The label `k.j` of a text; `None` if the text is not two whole numbers above zero joined by a point.
     pub fn parse(text: &str) -> Option<ModeLabel> {
         let (lowest, number) = text.split_once('.').filter(|(lowest, _)| !lowest.starts_with('+'))?;
         let label = ModeLabel { lowest: lowest.parse().ok()?, number: ModeNumber::parse(number)? };

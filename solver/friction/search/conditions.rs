@@ -27,8 +27,8 @@ impl Search<'_> {
         choices
     }
 
-    /// State of a corner on the face that carries it. Coinciding corners are two contacts, each corner against the prolonged face of the other block:
-    /// they begin to slide outwards along the lower face and inwards along the upper one, and part from the other face.
+    /// State of a corner on the face that carries it. Coinciding corners are two contacts, each of a corner with the prolonged face of the other block. A slide
+    /// outwards is along the lower face, a slide inwards along the upper one; the corner parts from the other face.
     pub(super) fn corner(&self, interface: usize, side: Sign, slip: Slip) -> Joint {
         let face = match (self.face(interface, side), slip) {
             (Face::Both, Slip::Slides(direction)) if direction == side => Face::Lower,

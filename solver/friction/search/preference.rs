@@ -94,8 +94,8 @@ impl Search<'_> {
         matches!(joints[interface].slip(), Some(Slip::Slides(_))) && self.given_slip(interface).is_none()
     }
 
-    /// The states with other slides that begin, as many together as in these states or fewer. With more than [`MOST_BLOCKS_TRIED`] interfaces, those
-    /// in which one of the slides sticks.
+    /// All states that differ from these in interfaces at rest along their contact alone: each of them sticks or begins to slide to either side, and no more
+    /// of them slide than in `joints`. With more than [`MOST_BLOCKS_TRIED`] interfaces, `joints` with one of the slides that begin stuck.
     pub(super) fn other_slides(&self, joints: &[Joint]) -> Vec<PerBlock<Joint>> {
         let (count, mut sticking) = (joints.len(), PerBlock::from_slice(joints));
         let begun: Vec<usize> = (0..count).filter(|i| self.begins_to_slide(joints, *i)).collect();

@@ -53,8 +53,9 @@ impl PendingTransition<'_> {
         is_new.then(|| solution.joints.iter().enumerate().map(held).collect())
     }
 
-    /// Ends a slide whose rate has come to zero: the state in which the contact sticks. A rate that reversed too little to be followed at once is above
-    /// rounding when it is found; it ends as a slide that is too low does, momentum conserved: without it, its loss could add energy, again and again.
+    /// Ends a slide whose rate has come to zero; returns the interface and the state in which its contact sticks. A rate above rounding is what a reversal
+    /// too short to be followed has left: that slide ends as one that is too low does, with momentum conserved. Setting its rate to zero alone could add energy
+    /// each time.
     pub(super) fn stop_slide(&mut self, interface: usize) -> Option<(usize, Joint)> {
         let stuck = self.with_slip(interface, Slip::Sticks);
         if let Some((_, joint)) = stuck.filter(|_| self.now.slide_rate[interface].abs() > self.resolution.speed) {

@@ -215,9 +215,10 @@ const HALVINGS_TO_CHANGE: usize = 40;
 /// Rounds in which a crest is enclosed by the golden section: the place is found to `0.618^40`, `4e-9` of the step.
 const ROUNDS_TO_CREST: usize = 40;
 
-/// The largest value of a quantity over a part of the step, or `so_far` if that is larger; `values` are those at [`places`]. It is at an end, or at
-/// a crest beside the highest of them, found by the golden section. Gaps of flying corners over a face are concave in time but for their rotation, and so is
-/// the lowest of them, which has kinks; beside a face the gap grows with the distance. Forces are smooth, and steps short beside their changes.
+/// The largest value of a quantity over a part of the step, or `so_far` if that is larger; `values` are those at [`places`]. The largest value is at an end
+/// of the part, or at a crest beside the highest of `values`, which the golden section finds. One crest is assumed there: gaps of flying corners over a face
+/// are concave in time but for their rotation, and so is the lowest of them, which has kinks; beside a face the gap grows with the distance; forces are
+/// smooth, and change little within a step.
 fn highest(mut value: impl FnMut(f64) -> f64, values: [f64; PLACES], span: [f64; 2], so_far: f64) -> f64 {
     let most = (1..PLACES).fold(0, |most, own| if values[own] > values[most] { own } else { most });
     let so_far = so_far.max(values[most]);
