@@ -6,7 +6,7 @@
 //! cargo run --release --example seven_drums -- docs 0.40 0.50  these
 //! ```
 //!
-//! writes `seven-drums.csv` and `seven-drums.svg`. The ground is accelerated by `a g` for `t_p` and by `-a g/2` for `2 t_p`. Amplitudes are scanned
+//! writes `seven-drums.csv` and `seven-drums.svg`; without lengths also `seven-drums-without-slip.csv`, of the same column where nothing slides. The ground is accelerated by `a g` for `t_p` and by `-a g/2` for `2 t_p`. Amplitudes are scanned
 //! upwards in steps of 0.01 g, and the first step that brings the column down is bisected. A run that ends where the laws of contact give no motion
 //! proves nothing: such runs are counted, shown, and taken for neither, unless the column is past its balance by far then.
 
@@ -57,7 +57,10 @@ const PUBLISHED: [(f64, [f64; 3]); 9] = [
 
 const NAMES: [&str; 3] = ["UDEC", "HybriDFEM", "LMGC90"];
 
-fn scene(t_p: f64, a: f64) -> Scene {
+/// Lengths of the pulse `[s]` for which a time-stepping program gives the amplitude without slip.
+const WITHOUT_SLIP: [f64; 6] = [0.10, 0.20, 0.30, 0.34, 0.40, 0.60];
+
+fn scene(t_p: f64, a: f64, friction: Option<f64>) -> Scene {
     let block = |(index, pair): (usize, &[f64])| {
         let half_widths = [0.5 * pair[0], 0.5 * pair[1]];
         let half_height = 0.5 * HEIGHTS[usize::from(index == 7)];
@@ -70,7 +73,7 @@ fn scene(t_p: f64, a: f64) -> Scene {
     };
     let blocks = WIDTHS.windows(2).enumerate().map(block).collect();
     let mut scene = Scene::new(Column::new(blocks, GRAVITY).expect("valid sizes"));
-    scene.friction = Some(Friction::uniform(FRICTION));
+    scene.friction = friction.map(Friction::uniform);
     let amplitude = a * GRAVITY;
     let first = Motion::Rectangular { amplitude, start: 0.0, duration: t_p };
     let second = Motion::Rectangular { amplitude: -0.5 * amplitude, start: t_p, duration: 2.0 * t_p };
@@ -91,8 +94,8 @@ fn has_fallen(column: &Column, theta: &[f64]) -> bool {
 }
 
 /// Whether an amplitude brings the column down; `None` where no motion follows from the laws of contact.
-fn comes_down(t_p: f64, a: f64) -> Option<bool> {
-    let mut scene = scene(t_p, a);
+fn comes_down(t_p: f64, a: f64, friction: Option<f64>) -> Option<bool> {
+    let mut scene = scene(t_p, a, friction);
     match Simulator::new().run(&scene).ok()?.status {
         StopReason::Overturned | StopReason::Falls | StopReason::Collapsed => Some(true),
         StopReason::Undetermined => {
@@ -117,7 +120,7 @@ struct First {
 }
 
 /// Scans upwards to a bound that no published amplitude comes near, then bisects.
-fn first(t_p: f64) -> First {
+fn first(t_p: f64, friction: Option<f64>) -> First {
     let last = PUBLISHED.iter().rev().find(|(length, _)| *length <= t_p + 1e-9).map_or(6.0, |(_, a)| 1.5 * a[2]);
     let mut found = First { t_p, amplitude: None, undetermined: Vec::new(), runs: 0 };
     // The column does not rock below 0.15 g, the slenderness of all of it.
@@ -125,7 +128,7 @@ fn first(t_p: f64) -> First {
     let mut a: f64 = below;
     while a <= last && found.amplitude.is_none() {
         found.runs += 1;
-        match comes_down(t_p, a) {
+        match comes_down(t_p, a, friction) {
             Some(true) => found.amplitude = Some([below, a]),
             Some(false) => below = a,
             None => found.undetermined.push(a),
@@ -136,7 +139,7 @@ fn first(t_p: f64) -> First {
         while *high - *low > RESOLUTION {
             let middle = 0.5 * (*low + *high);
             found.runs += 1;
-            match comes_down(t_p, middle) {
+            match comes_down(t_p, middle, friction) {
                 Some(true) => *high = middle,
                 Some(false) => *low = middle,
                 None => {
@@ -149,21 +152,31 @@ fn first(t_p: f64) -> First {
     found
 }
 
+/// The table of what was found, which is also printed.
+fn table(found: &[First]) -> String {
+    let mut csv = String::from("t_p,first_amplitude_g,stands_at_g,undetermined,undetermined_at_g,runs\n");
+    for First { t_p, amplitude, undetermined, runs } in found {
+        let [below, at] = amplitude.map_or([String::new(), String::new()], |both| both.map(|a| format!("{a:.5}")));
+        let list: Vec<String> = undetermined.iter().map(|a| format!("{a:.5}")).collect();
+        let _ = writeln!(csv, "{t_p},{at},{below},{},{},{runs}", undetermined.len(), list.join(" "));
+        println!("t_p = {t_p} s: down at {at} g, stands at {below} g; {} of {runs} runs without an answer", list.len());
+    }
+    csv
+}
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1);
     let folder = arguments.next().map(PathBuf::from).ok_or("give the folder to write to")?;
     let mut lengths = arguments.map(|text| text.parse()).collect::<Result<Vec<f64>, _>>()?;
     if lengths.is_empty() {
         lengths = PUBLISHED.iter().map(|(length, _)| *length).collect();
+        println!("without slip");
+        let found: Vec<First> = WITHOUT_SLIP.into_par_iter().map(|t_p| first(t_p, None)).collect();
+        chart::write(&folder.join("seven-drums-without-slip.csv"), &table(&found))?;
+        println!("with a coefficient of {FRICTION}");
     }
-    let found: Vec<First> = lengths.into_par_iter().map(first).collect();
-    let mut csv = String::from("t_p,first_amplitude_g,stands_at_g,undetermined,undetermined_at_g,runs\n");
-    for First { t_p, amplitude, undetermined, runs } in &found {
-        let [below, at] = amplitude.map_or([String::new(), String::new()], |both| both.map(|a| format!("{a:.5}")));
-        let list: Vec<String> = undetermined.iter().map(|a| format!("{a:.5}")).collect();
-        let _ = writeln!(csv, "{t_p},{at},{below},{},{},{runs}", undetermined.len(), list.join(" "));
-        println!("t_p = {t_p} s: down at {at} g, stands at {below} g; {} of {runs} runs without an answer", list.len());
-    }
+    let found: Vec<First> = lengths.into_par_iter().map(|t_p| first(t_p, Some(FRICTION))).collect();
+    let csv = table(&found);
     let own = Curve {
         name: "this program".into(),
         points: found.iter().map(|one| [one.t_p, one.amplitude.map_or(f64::NAN, |[_, at]| at)]).collect(),

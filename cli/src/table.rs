@@ -7,6 +7,7 @@ pub mod column;
 pub mod growing;
 #[cfg(feature = "parquet")]
 pub mod parquet;
+mod tidy;
 
 use crate::error::Failure;
 use crate::files::{LARGEST_TABLE, check};
@@ -17,6 +18,8 @@ use rocking::trust::Degree;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
+pub use tidy::INDEX;
+use tidy::Tidy;
 
 /// The file format of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,16 +78,48 @@ pub fn open(path: &Path) -> std::io::Result<Rows> {
     }
     match Format::of(path).map_err(std::io::Error::other)? {
         Format::Csv => {
-            check_first_line(path)?;
-            let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::Headers).from_path(path)?;
+            let separator = separator(path)?;
+            let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::Headers).delimiter(separator).from_path(path)?;
             let header = reader.headers().map_err(damage)?.clone();
-            let axes = header.iter().position(|name| name == OUTCOME).unwrap_or(0);
-            let rows = reader.into_records().map(move |row| row.map(|row| tidied(row, axes)).map_err(damage));
-            Ok(Rows { header, rows: Box::new(rows) })
+            let rows = reader.into_records().map(|row| {
+                let row = row.map_err(damage)?;
+                let line = row.position().map_or(0, csv::Position::line);
+                Ok((row, line))
+            });
+            tidied(&header, rows, separator)
         }
         #[cfg(feature = "parquet")]
-        Format::Parquet => parquet::rows(path),
+        Format::Parquet => {
+            let Rows { header, rows } = parquet::rows(path)?;
+            tidied(&header, rows.zip(2..).map(|(row, line)| Ok((row?, line))), b',')
+        }
     }
+}
+
+/// Rows as this program writes them; each comes with its line.
+fn tidied(
+    header: &StringRecord,
+    rows: impl Iterator<Item = std::io::Result<(StringRecord, u64)>> + 'static,
+    separator: u8,
+) -> std::io::Result<Rows> {
+    let mut tidy = Tidy::new(header, separator)?;
+    let header = tidy.header.clone();
+    let rows = rows.filter_map(move |row| row.and_then(|(row, line)| tidy.row(row, line)).transpose());
+    Ok(Rows { header, rows: Box::new(rows) })
+}
+
+/// The columns `name_1`, `name_2` and so on of a table, by their places in this order, wherever they stand.
+///
+/// # Errors
+/// What is wrong, if a number is left out.
+pub fn numbered<S: AsRef<str>>(header: &[S], name: &str) -> Result<Vec<usize>, String> {
+    let number = |heading: &S| heading.as_ref().strip_prefix(name)?.strip_prefix('_')?.parse::<usize>().ok();
+    let count = header.iter().filter_map(number).count();
+    let place = |wanted: usize| {
+        let place = header.iter().position(|heading| number(heading) == Some(wanted));
+        place.ok_or_else(|| format!("it has {count} column(s) `{name}_…`, and no `{name}_{wanted}`; give all of them"))
+    };
+    (1..=count).map(place).collect()
 }
 
 /// A row of a finished table with the fate of its column; no fate where the run has no answer, or one that its companions do not determine.
@@ -106,25 +141,24 @@ pub fn decided(path: &Path) -> std::io::Result<(StringRecord, impl Iterator<Item
 /// Longest first line of a table `[B]`: a file without line breaks is none.
 const LONGEST_HEADER: u64 = 1 << 20;
 
-/// Refuses a file whose first line is no header of a table.
-fn check_first_line(path: &Path) -> std::io::Result<()> {
+/// The separator of the cells, that of the first line: a comma, a semicolon or a tab. Refuses a file whose first line is no header of a table.
+fn separator(path: &Path) -> std::io::Result<u8> {
     let mut line = Vec::new();
     BufReader::new(File::open(path)?).take(LONGEST_HEADER).read_until(b'\n', &mut line)?;
     let problem = match line.len() as u64 {
         LONGEST_HEADER.. => "its first line is longer than a megabyte: it is no table",
+        _ if line.starts_with(&[0xff, 0xfe]) || line.starts_with(&[0xfe, 0xff]) => {
+            "it is UTF-16 text; save it as CSV in UTF-8"
+        }
         _ if line.contains(&0) => "its first line has zero bytes: it is no table, or was not written to its end",
-        _ => return Ok(()),
+        _ if line.starts_with(b"sep=") => "its first line is no header; remove it",
+        _ => {
+            let count = |separator: &u8| line.iter().filter(|byte| *byte == separator).count();
+            // Of equally many the last: a comma, also where there is none.
+            return Ok([b'\t', b';', b','].into_iter().max_by_key(count).unwrap_or(b','));
+        }
     };
     Err(std::io::Error::new(std::io::ErrorKind::InvalidData, problem))
-}
-
-/// A row without the blanks that an edited table may have beside its commas. Texts of the first `axes` cells keep theirs: they are names.
-fn tidied(row: StringRecord, axes: usize) -> StringRecord {
-    let is_name = |place: usize, cell: &str| place < axes && cell.trim().parse::<f64>().is_err();
-    if row.iter().all(|cell| cell.len() == cell.trim().len()) {
-        return row;
-    }
-    row.iter().enumerate().map(|(place, cell)| if is_name(place, cell) { cell } else { cell.trim() }).collect()
 }
 
 /// What is wrong with a table, by its line.
@@ -136,7 +170,7 @@ fn damage(error: csv::Error) -> std::io::Error {
                 "line {line} has {len} cell(s) and the lines above have {expected_len}: it is cut, or not of this table"
             )
         }
-        csv::ErrorKind::Utf8 { .. } => format!("line {line} is not UTF-8 text"),
+        csv::ErrorKind::Utf8 { .. } => format!("line {line} is not UTF-8 text; save the table as UTF-8"),
         _ => return error.into(),
     };
     std::io::Error::new(std::io::ErrorKind::InvalidData, problem)

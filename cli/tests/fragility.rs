@@ -180,7 +180,7 @@ fn columns_may_stand_in_any_order() {
 #[test]
 fn peaks_are_numbers() {
     let folder = Folder::new();
-    for peak in ["nan", "-5", "-inf", "word"] {
+    for peak in ["nan", "-5", "-inf", "word", ""] {
         folder.write("t.csv", format!("seed,pga_g,outcome,peak_1\n1,0.1,rocks,0.1\n2,0.2,rocks,{peak}\n"));
         folder
             .refused("fragility t.csv --replicates 0", &["row 2, column `peak_1`", peak, "zero or a number above it"]);
@@ -244,4 +244,134 @@ fn missing_runs_are_named() {
     let cut = [&rows[..4], &rows[7..12], &rows[13..]].concat();
     assert_eq!(warned(&cut), "warning: runs 4 to 6 are missing, and 1 more\n");
     assert_eq!(warned(&[&rows[..4], &rows[5..]].concat()), "warning: run 4 is missing\n");
+}
+
+/// A study of two blocks at six levels and five records: `[index, record, scale, pgv, outcome, impacts, block, truncated, first_uplift, peak_1, peak_2]`.
+fn study() -> Vec<Vec<String>> {
+    let header = "index,record,scale,pgv,outcome,impacts,block,truncated,first_uplift,peak_1,peak_2";
+    let mut rows = vec![header.split(',').map(String::from).collect()];
+    for index in 0..30 {
+        let (record, level) = (index / 6, index % 6 + 1);
+        let size = level + record % 3;
+        let (outcome, block, uplift, peak) = match size {
+            1..=2 => ("no-uplift", "", "", 0.0),
+            3..=5 => ("rocks", "", "1.5", 0.1 * f64::from(size)),
+            _ => ("overturns", "2", "1.5", 9.0),
+        };
+        let peaks = [format!("{:?}", 0.5 * peak), format!("{peak:?}")];
+        let cells = [
+            &index.to_string(),
+            &format!("r{record}"),
+            "1.5",
+            &format!("0.{level}"),
+            outcome,
+            "3",
+            block,
+            "false",
+            uplift,
+        ];
+        rows.push(cells.into_iter().map(String::from).chain(peaks).collect());
+    }
+    rows
+}
+
+/// The table as text, each cell below the header changed by its heading.
+fn with(rows: &[Vec<String>], separator: &str, change: impl Fn(&str, &str) -> String) -> String {
+    let line = |(number, row): (usize, &Vec<String>)| {
+        let cells =
+            rows[0].iter().zip(row).map(|(name, cell)| if number == 0 { cell.clone() } else { change(name, cell) });
+        cells.collect::<Vec<_>>().join(separator)
+    };
+    rows.iter().enumerate().map(line).collect::<Vec<_>>().join("\n") + "\n"
+}
+
+/// Spreadsheets, pandas and R save a table in words of their own. None of them changes an answer.
+#[test]
+fn tables_that_other_programs_have_saved_say_the_same() {
+    let folder = Folder::new();
+    let rows = study();
+    let told = |text: String| {
+        folder.write("t.csv", text);
+        let curves =
+            folder.says("fragility t.csv --state uplift --state overturned --state peak>0.35 --replicates 50 --json");
+        let figure = folder.says("plot t.csv");
+        (curves, figure, folder.read("t.svg"))
+    };
+    let as_written = told(with(&rows, ",", |_, cell| cell.into()));
+    assert_eq!((as_written.0.1.as_str(), as_written.1.1.as_str()), ("", ""));
+    let is_number = |cell: &str| cell.parse::<f64>().is_ok();
+    let pandas = |name: &str, cell: &str| match (name, cell) {
+        ("impacts" | "block" | "index", number) if !number.is_empty() => format!("{number}.0"),
+        ("truncated", "false") => "False".into(),
+        _ => cell.into(),
+    };
+    let r = |_: &str, cell: &str| match cell {
+        "" => "NA".to_string(),
+        "false" => "FALSE".into(),
+        cell if is_number(cell) => cell.into(),
+        cell => format!("\"{cell}\""),
+    };
+    let german =
+        |_: &str, cell: &str| if is_number(cell) { cell.replace('.', ",") } else { cell.to_uppercase().to_lowercase() };
+    for (text, who) in [
+        (with(&rows, ",", pandas), "pandas"),
+        (with(&rows, ",", r), "R"),
+        (with(&rows, ";", german), "a spreadsheet with decimal commas"),
+        (with(&rows, "\t", |_, cell| cell.into()), "tabs"),
+        (
+            with(&rows, ",", |_, cell| cell.into())
+                .replacen("first_uplift", "First_Uplift", 1)
+                .replacen("record", "Record", 1),
+            "capitals",
+        ),
+        (with(&rows, ",", |_, cell| cell.into()) + ",,,,,,,,,,\n\n", "empty rows"),
+        (
+            with(&rows, ",", |name, cell| if name == "truncated" { "0".into() } else { cell.into() }),
+            "numbers for truths",
+        ),
+    ] {
+        assert_eq!(told(text), as_written, "{who}");
+    }
+}
+
+/// What would change an answer without a word is refused, or has a warning.
+#[test]
+fn tables_that_were_damaged_are_refused_or_have_a_warning() {
+    let folder = Folder::new();
+    let rows = study();
+    let plain = with(&rows, ",", |_, cell| cell.into());
+    let fit = "fragility t.csv --state peak>0.35 --state uplift --replicates 0";
+    let body: Vec<&str> = plain.lines().skip(1).collect();
+    for (text, named) in [
+        (plain.clone() + &plain, "line 32 is the header once more"),
+        (plain.replacen("impacts", "outcome", 1), "two of its columns are called `outcome`"),
+        (plain.replacen("false", "falsch", 1), "line 2, column `truncated`: `falsch` is neither true nor false"),
+        (plain.replacen(",0.4\n", ",\"0.4\n", 1), "a quote is not closed"),
+        (
+            with(
+                &rows,
+                ",",
+                |name, cell| if name == "first_uplift" && cell.is_empty() { "-".into() } else { cell.into() },
+            ),
+            "column `first_uplift`: `-` is not a time",
+        ),
+        (
+            rows.iter().map(|row| row[..10].join(",") + "\n").collect(),
+            "block 2 was lost, and the table has no column `peak_2`",
+        ),
+        (format!("sep=,\n{plain}"), "its first line is no header"),
+        (format!("{plain}{}\n", body[3]), "the run stands in row 4 as well"),
+    ] {
+        folder.write("t.csv", text);
+        folder.refused(fit, &[named]);
+    }
+    let again: Vec<String> = body.iter().map(|row| format!("1{row}")).collect();
+    folder.write("t.csv", format!("{plain}{}\n", again.join("\n")));
+    let (_, warning) = folder.says(fit);
+    assert!(warning.contains("30 run(s) have all settings of a run above"), "{warning}");
+    let blank = |name: &str, cell: &str| if name == "peak_2" && cell != "9.0" { String::new() } else { cell.into() };
+    folder.write("t.csv", with(&rows, ",", blank));
+    let (_, warning) = folder.says(fit);
+    assert!(warning.contains("that stand have no `peak_2`"), "{warning}");
+    assert_eq!(folder.says("plot t.csv").1, warning);
 }

@@ -314,9 +314,10 @@ fn damaged_tables_are_not_drawn() {
         whole.lines().map(row).collect::<String>()
     };
     let peak = whole.lines().next().and_then(|header| header.split(',').position(|name| name == "peak_1"));
-    for (damaged, told) in
-        [(with(1, "1"), "points are missing"), (with(peak.expect("a column"), "x"), "point 7 has `x` for a number")]
-    {
+    for (damaged, told) in [
+        (with(1, "1"), "points are missing"),
+        (with(peak.expect("a column"), "x"), "row 8, column `peak_1`: `x` is no number"),
+    ] {
         folder.write("sweep.csv", damaged);
         folder.refused("plot sweep.csv", &[told]);
     }

@@ -560,3 +560,29 @@ fn decimal_commas_below_a_remark_are_no_second_column() {
     let pairs = table("# time [s], acceleration [m/s2]", |k, a| format!("{k},{}", (100.0 * a).round()));
     assert!((read(&pairs, &options()).dt - 1.0).abs() < 1e-12);
 }
+
+/// With semicolons or quotes around them cells are numbers, whichever their decimal sign: times with points, accelerations with commas.
+#[test]
+fn cells_may_have_decimal_signs_of_their_own() {
+    let comma = |a: f64| format!("{a}").replace('.', ",");
+    let semicolons = |k: usize, a: f64| format!("{:.2};{}", k as f64 / 100.0, comma(a));
+    let quotes = |k: usize, a: f64| format!("{:.2},\"{}\"", k as f64 / 100.0, comma(a));
+    let all_quoted = |k: usize, a: f64| format!("\"{:.2}\",\"{}\"", k as f64 / 100.0, comma(a));
+    for header in ["time [s];acc [m/s2]", ""] {
+        assert!(
+            agrees(
+                &read(
+                    &table(header, semicolons),
+                    &TextOptions { units: Some(AccelerationUnit::MetrePerSecondSquared), ..options() }
+                ),
+                1.0,
+                0.01
+            ),
+            "{header}"
+        );
+    }
+    let rows: [&dyn Fn(usize, f64) -> String; 2] = [&quotes, &all_quoted];
+    for row in rows {
+        assert!(agrees(&read(&table("time [s],acc [m/s2]", row), &options()), 1.0, 0.01));
+    }
+}

@@ -132,11 +132,16 @@ impl TryFrom<Cells<'_>> for Observation {
 }
 
 /// The columns of a table of runs that name the record of a run: `record` in the table of a study, in that of a sweep the axes over records
-/// ([`is_of_records`]). Empty if there is none: then all rows are of one record ([`is_of_one_record`]), or each row has a record of its own.
+/// ([`is_of_records`]); a bare name such as `seed` counts where there is no such key. Empty if there is none: then all rows are of one record ([`is_of_one_record`]), or each row has a record of its own.
 pub fn record_columns<S: AsRef<str>>(header: &[S]) -> Vec<usize> {
     match header.iter().position(|name| name.as_ref() == "record") {
         Some(record) => vec![record],
-        None => (0..header.len()).filter(|place| is_of_records(header[*place].as_ref())).collect(),
+        None => {
+            let all: Vec<usize> = (0..header.len()).filter(|place| is_of_records(header[*place].as_ref())).collect();
+            let is_key = |place: &usize| header[*place].as_ref().contains('.');
+            let keys: Vec<usize> = all.iter().copied().filter(is_key).collect();
+            if keys.is_empty() { all } else { keys }
+        }
     }
 }
 
@@ -343,6 +348,8 @@ mod tests {
         assert_eq!(record_columns(&station), [0, 1]);
         assert_eq!(record_columns(&["pgv", "record", "excitation.horizontal.seed"]), [1]);
         assert_eq!(record_columns(&["pgv", "excitation.horizontal.file", "outcome"]), [1]);
+        // A column that the user has added.
+        assert_eq!(record_columns(&["excitation.horizontal.seed", "pgv", "file", "outcome"]), [0]);
         // A table written by hand.
         assert_eq!(record_columns(&["seed", "pgv", "outcome"]), [0]);
         assert_eq!(record_columns(&["excitation.horizontal.omega", "outcome"]), [] as [usize; 0]);

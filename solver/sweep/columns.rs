@@ -103,13 +103,14 @@ const RESULTS: [Field; 13] = [
 /// Columns of results that a study has beside those of a sweep.
 const RESULTS_OF_STUDIES: [&str; 2] = ["first_uplift", "largest_gap"];
 
-/// Whether a column of the table of a sweep or a study has results, by its name. All others say what was run: number, record, level, axes.
-pub fn is_result(column: &str) -> bool {
+/// What the cells of a column of the table of a sweep or a study hold, by its name, if these are results. All other columns say what was run: number, record,
+/// level, axes.
+pub fn kind_of_result(column: &str) -> Option<CellKind> {
     let is_of_block = |prefix: &str| column.strip_prefix(prefix).is_some_and(|number| number.parse::<usize>().is_ok());
-    RESULTS.iter().any(|field| field.word() == column)
-        || RESULTS_OF_STUDIES.contains(&column)
-        || is_of_block(PEAK)
-        || is_of_block(RESIDUAL_SLIDE)
+    if RESULTS_OF_STUDIES.contains(&column) || is_of_block(PEAK) || is_of_block(RESIDUAL_SLIDE) {
+        return Some(CellKind::Number);
+    }
+    RESULTS.iter().find(|field| field.word() == column).map(|field| field.kind())
 }
 
 /// Headings of the columns of each block and of each interface, before its number.
@@ -256,7 +257,7 @@ mod tests {
             let fields = sweep.fields().expect("a scene");
             for (place, field) in fields.iter().enumerate() {
                 let heading = sweep.heading(*field);
-                assert_eq!(is_result(&heading), place > 2, "{heading}");
+                assert_eq!(kind_of_result(&heading), (place > 2).then(|| field.kind()), "{heading}");
             }
         }
     }

@@ -13,6 +13,6 @@ mod sampling;
 
 mod copula;
 
-pub use columns::{Cell, CellKind, ERROR, Field, is_result};
+pub use columns::{Cell, CellKind, ERROR, Field, kind_of_result};
 pub use points::{Ask, Axis, Combine, Needs, Outcome, PointError, Row, Sweep, is_of_records};
 pub use sampling::SamplingMethod;

@@ -5,16 +5,18 @@ use crate::commands::plot::write;
 use crate::commands::spectrum::beside;
 use crate::commands::sweep::{OUTCOME, TRUNCATED, TRUST};
 use crate::error::{Failure, at};
-use crate::table::{Format, open};
+use crate::table::{Format, INDEX, numbered, open};
 use crate::terminal::{json, print, warn};
 use crate::text::shown;
 use crate::{output, plot};
 use csv::StringRecord;
+use rocking::Fate;
 use rocking::intensity::Intensity;
 use rocking::studies::{self, Cells, DEFAULT_STATES, Fit, Fragility, FragilityOptions, LimitState, Observation};
-use rocking::sweep::is_result;
+use rocking::sweep::kind_of_result;
 use serde::Serialize;
-use std::collections::{BTreeMap, BTreeSet, HashSet};
+use std::collections::hash_map::Entry;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -83,7 +85,7 @@ pub struct Runs {
     pub measure: String,
     pub runs: Vec<Observation>,
     /// Warnings: columns that are neither the record nor the measure, and whose values differ; runs that were cut; runs that are missing.
-    warnings: Vec<String>,
+    pub warnings: Vec<String>,
     /// Number of the columns of peaks, one for each block.
     peaks: usize,
     has_slides: bool,
@@ -141,8 +143,12 @@ struct Pooling<'c> {
     /// For each column that is neither the record nor the measure: the records that have each of its values.
     values: Vec<BTreeMap<String, BTreeSet<String>>>,
     records: BTreeSet<String>,
-    /// The settings of all rows, in a table that numbers its runs.
-    seen: HashSet<String>,
+    /// The number and the row of the first run with these settings.
+    seen: HashMap<String, (String, usize)>,
+    /// Number of runs with the settings of another one, and another number.
+    repeated: usize,
+    /// Number of runs that stand and have no peak of the last block.
+    short: usize,
     /// Number of runs that end before their ground motion, or while the column may be falling.
     cut: usize,
 }
@@ -153,7 +159,9 @@ impl Pooling<'_> {
             columns,
             values: vec![BTreeMap::new(); columns.others.len()],
             records: BTreeSet::new(),
-            seen: HashSet::new(),
+            seen: HashMap::new(),
+            repeated: 0,
+            short: 0,
             cut: 0,
         }
     }
@@ -162,17 +170,28 @@ impl Pooling<'_> {
     fn add(&mut self, row: &StringRecord, number: usize) -> Result<(), String> {
         let columns = self.columns;
         // Studies with other records may be pooled: their runs have the same numbers.
-        let settings = || columns.settings.iter().map(|place| &row[*place]).collect::<Vec<_>>().join(",");
-        if columns.index.is_some() && !self.seen.insert(settings()) {
-            return Err(": the run stands in a row above as well; give each run once".into());
+        let is_number = |place: &&usize| columns.index == Some(**place);
+        let settings = columns.settings.iter().filter(|place| !is_number(place)).map(|place| &row[*place]);
+        let index = columns.index.map(|index| &row[index]);
+        match self.seen.entry(settings.collect::<Vec<_>>().join(",")) {
+            Entry::Vacant(free) => {
+                free.insert((index.unwrap_or_default().into(), number));
+            }
+            Entry::Occupied(first) if index == Some(&first.get().0) => {
+                return Err(format!(": the run stands in row {} as well; give each run once", first.get().1 + 1));
+            }
+            Entry::Occupied(_) => self.repeated += 1,
         }
+        let is_standing = Fate::parse(&row[columns.outcome]).is_some_and(|fate| fate.is_decided() && !fate.is_lost());
+        let (first, last) = (columns.peaks.first(), columns.peaks.last());
+        let [has_first, has_last] = [first, last].map(|place| place.is_some_and(|place| !row[*place].is_empty()));
+        self.short += usize::from(is_standing && has_first && !has_last);
         let record = columns.record_of(row, number);
         for (values, place) in self.values.iter_mut().zip(&columns.others) {
             values.entry(row[*place].to_string()).or_default().insert(record.clone());
         }
         self.records.insert(record);
-        // `True` where another program has written the table.
-        self.cut += usize::from(columns.truncated.is_some_and(|truncated| row[truncated].eq_ignore_ascii_case("true")));
+        self.cut += usize::from(columns.truncated.is_some_and(|truncated| &row[truncated] == "true"));
         Ok(())
     }
 
@@ -184,8 +203,12 @@ impl Pooling<'_> {
             let is_of_one = |records: &BTreeSet<String>| records.len() == 1;
             !columns.records.is_empty() && values.len() == self.records.len() && values.values().all(is_of_one)
         };
-        let several =
-            columns.others.iter().zip(&self.values).filter(|(_, values)| values.len() > 1 && !is_of_record(values));
+        // Nor is a value of its own for each run an axis.
+        let is_of_run = |values: &BTreeMap<String, BTreeSet<String>>| values.len() == self.seen.len() + self.repeated;
+        let is_axis = |values: &BTreeMap<String, BTreeSet<String>>| {
+            values.len() > 1 && !is_of_record(values) && !is_of_run(values)
+        };
+        let several = columns.others.iter().zip(&self.values).filter(|(_, values)| is_axis(values));
         let pooled = several.map(|(place, values)| {
             let (name, count) = (&columns.names[*place], values.len());
             format!(
@@ -198,12 +221,26 @@ impl Pooling<'_> {
                 self.cut
             )
         });
-        pooled.chain(cut).collect()
+        let repeated = (self.repeated > 0).then(|| {
+            format!(
+                "{} run(s) have all settings of a run above; if they are the same runs, give each once",
+                self.repeated
+            )
+        });
+        let has_other_columns = columns.others.iter().any(|place| last_part(&columns.names[*place]) == "blocks");
+        let short = (self.short > 0 && !has_other_columns).then(|| {
+            format!(
+                "{} run(s) that stand have no `peak_{}`: they count as those of a column with fewer blocks",
+                self.short,
+                columns.peaks.len()
+            )
+        });
+        pooled.chain(cut).chain(repeated).chain(short).collect()
     }
 }
 
 /// Settings that are no axes.
-const NO_AXES: [&str; 2] = ["index", "scale"];
+const NO_AXES: [&str; 2] = [INDEX, "scale"];
 
 /// Whether a cell has a value: the same text, or the same number.
 fn is_value(cell: &str, value: &str) -> bool {
@@ -226,6 +263,8 @@ struct Columns {
     /// Settings that are neither the record nor the measure: other axes of a sweep.
     others: Vec<usize>,
     outcome: usize,
+    /// The block with which a column was lost.
+    block: Option<usize>,
     uplift: Option<usize>,
     trust: Option<usize>,
     truncated: Option<usize>,
@@ -251,33 +290,25 @@ impl Columns {
         let column = |name: &str| names.iter().position(|own| own == name);
         let outcome = column(OUTCOME)
             .ok_or_else(|| format!("it has no column `{OUTCOME}`; give a table of `rocking ida` or `rocking sweep`"))?;
-        let numbered = |prefix: &str| -> Result<Vec<usize>, String> {
-            let number = |name: &String| name.strip_prefix(prefix)?.parse::<usize>().ok();
-            let count = names.iter().filter_map(number).count();
-            let place = |wanted: usize| {
-                let place = names.iter().position(|name| number(name) == Some(wanted));
-                place.ok_or_else(|| {
-                    format!("it has {count} column(s) `{prefix}…`, and no `{prefix}{wanted}`; give all of them")
-                })
-            };
-            (1..=count).map(place).collect()
-        };
         let records = studies::record_columns(&names);
-        let settings: Vec<usize> = (0..names.len()).filter(|place| !is_result(&names[*place])).collect();
+        let settings: Vec<usize> = (0..names.len())
+            .filter(|place| kind_of_result(&names[*place]).is_none() && !names[*place].is_empty())
+            .collect();
         let is_other =
             |place: &usize| *place != level && !records.contains(place) && !NO_AXES.contains(&names[*place].as_str());
         Ok(Columns {
             others: settings.iter().copied().filter(is_other).collect(),
-            index: column("index"),
+            index: column(INDEX),
             settings,
             records,
             level,
             outcome,
+            block: column("block"),
             uplift: column("first_uplift"),
             trust: column(TRUST),
             truncated: column(TRUNCATED),
-            peaks: numbered("peak_")?,
-            slides: numbered("residual_slide_")?,
+            peaks: numbered(&names, "peak")?,
+            slides: numbered(&names, "residual_slide")?,
             names,
         })
     }
@@ -318,15 +349,31 @@ impl Columns {
             };
             places[..filled].iter().map(number).collect()
         };
+        let has_uplift = |place: usize| match row[place].parse::<f64>() {
+            _ if row[place].is_empty() => Ok(false),
+            Ok(time) if time >= 0.0 => Ok(true),
+            _ => Err(wrong(place, "a time")),
+        };
         let cells = Cells {
             record: self.record_of(row, number),
             level: level.ok_or_else(|| wrong(self.level, "a number above zero"))?,
             outcome: Some(&row[self.outcome]),
             trust: self.trust.map(|trust| &row[trust]),
-            has_uplift: self.uplift.map(|uplift| !row[uplift].is_empty()),
+            has_uplift: self.uplift.map(has_uplift).transpose()?,
             peaks: numbers(&self.peaks, 0.0, "zero or a number above it")?,
             residual_slides: numbers(&self.slides, f64::NEG_INFINITY, "a number")?,
         };
+        let is_standing = Fate::parse(&row[self.outcome]).is_some_and(|fate| fate.is_decided() && !fate.is_lost());
+        if let Some(first) = self.peaks.first().filter(|_| is_standing && cells.peaks.is_empty()) {
+            return Err(wrong(*first, "zero or a number above it"));
+        }
+        // The block with which a column was lost is one of it.
+        let lost = self.block.and_then(|block| row[block].parse::<usize>().ok()).unwrap_or_default();
+        if !self.peaks.is_empty() && lost > self.peaks.len() {
+            return Err(format!(
+                ": block {lost} was lost, and the table has no column `peak_{lost}`; give all of them"
+            ));
+        }
         Observation::try_from(cells).map_err(|refused| format!(", {refused}"))
     }
 }
@@ -345,8 +392,12 @@ fn level(names: &[String], measure: Option<&str>) -> Result<usize, String> {
         (_, Some(measure)) => Err(format!("there is no column `{measure}`; it has {}", known())),
         ([], None) => Err(format!("no column has the name of a measure; choose one of {} with --measure", known())),
         (several, None) => {
+            // A study has its measure beside the scale of the record; others may be properties of the records.
+            let of_study = several.iter().find(|place| **place > 0 && names[**place - 1] == "scale");
             let several: Vec<&str> = several.iter().map(|place| names[*place].as_str()).collect();
-            Err(format!("several columns are measures; choose one of {} with --measure", several.join(", ")))
+            of_study.copied().ok_or_else(|| {
+                format!("several columns are measures; choose one of {} with --measure", several.join(", "))
+            })
         }
     }
 }

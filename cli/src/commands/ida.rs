@@ -11,10 +11,10 @@ use crate::error::{Failure, at};
 use crate::output;
 use crate::plot::{self, Figure, Paper};
 use crate::progress::Progress;
-use crate::table::column::{Column, Kind, Rows, TRUST, fits, has_result};
+use crate::table::column::{Column, FAILURE, Kind, Rows, TRUST, fits, has_result};
 use crate::table::growing::Growing;
 use crate::table::{Format, open};
-use crate::terminal::{json, print, warn_of_some};
+use crate::terminal::{json, print, warn, warn_of_some};
 use crate::text::{printable, shown};
 use csv::StringRecord;
 use rocking::Fate;
@@ -120,10 +120,16 @@ fn filled(
 pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<Option<String>, Failure> {
     // A table that cannot be read is left to `spectrum::draw`, which reports the failure.
     let Ok(Rows { header, .. }) = open(table) else { return Ok(None) };
-    if !["record", "scale", "first_uplift", "peak_1"].iter().all(|name| header.iter().any(|own| own == *name)) {
+    let has = |name: &str| header.iter().any(|own| own == name);
+    // No axis of a sweep is called that.
+    if !has("scale") {
         return Ok(None);
     }
+    if !has("peak_1") {
+        return Err(Failure::Study(table.into(), "it has no columns peak_1, ..., which its figure shows".into()));
+    }
     let read = fragility::read(table, None, &[])?;
+    warn(&read.warnings);
     let label = read.measure.parse().map_or(read.measure.clone(), |intensity: Intensity| intensity.label());
     let (states, options) = asked(table)?.unwrap_or_else(|| (DEFAULT_STATES.to_vec(), FragilityOptions::default()));
     let conclusions = Conclusions::of(&read.runs, &read.measure, &states, &options);
@@ -230,8 +236,10 @@ fn point(ida: &Ida, index: usize) -> Vec<String> {
 
 /// Whether a row may be that of a run of a study.
 fn is_row(ida: &Ida, columns: &[Column], row: &StringRecord, index: usize) -> bool {
-    let outcome = columns.iter().zip(row).find(|(column, _)| column.name == OUTCOME).map_or("", |(_, cell)| cell);
-    point(ida, index).iter().zip(row).all(|(due, cell)| due == cell) && fits(columns, row) && has_result(row, outcome)
+    let cell =
+        |name: &str| columns.iter().zip(row).find(|(column, _)| column.name == name).map_or("", |(_, cell)| cell);
+    let is_due = point(ida, index).iter().zip(row).all(|(due, cell)| due == cell);
+    is_due && fits(columns, row) && has_result(cell(OUTCOME), cell(FAILURE))
 }
 
 /// A run as `columns` cells.

@@ -8,7 +8,7 @@ use crate::commands::{fractiles, probability};
 use crate::error::{Failure, at};
 use crate::files::{folder_of, put_in_place, temporary};
 use crate::output;
-use crate::table::column::{Column, Rows, has_result};
+use crate::table::column::{Column, FAILURE, Rows, has_result};
 #[cfg(feature = "parquet")]
 use crate::table::parquet;
 use crate::table::{Format, open};
@@ -140,11 +140,13 @@ fn join(
         if *header.get_or_insert_with(|| found.clone()) != found {
             return Err(other_columns(path, expected));
         }
-        let outcome = found.iter().position(|name| name == OUTCOME);
-        let outcome = outcome.ok_or_else(|| broken(path)(format!("it has no column `{OUTCOME}`")))?;
+        let column = |name: &str| found.iter().position(|own| own == name);
+        let outcome = column(OUTCOME).ok_or_else(|| broken(path)(format!("it has no column `{OUTCOME}`")))?;
+        let failure = column(FAILURE);
         for row in rows {
             let row = row.map_err(broken(path))?;
-            check_row(&row, (next, outcome), expected, path)?;
+            let has_result = has_result(&row[outcome], failure.map_or("", |failure| &row[failure]));
+            check_row(&row, (next, has_result), expected, path)?;
             write(&row)?;
             next += 1;
         }
@@ -157,17 +159,17 @@ fn join(
     }
 }
 
-/// Refuses a row that is not that of the point `next`, has no result in the column `outcome`, or is not a row of the sweep expected.
+/// Refuses a row that is not that of the point `next`, has no result, or is not a row of the sweep expected.
 fn check_row(
     row: &StringRecord,
-    (next, outcome): (usize, usize),
+    (next, has_result): (usize, bool),
     expected: Option<&ExpectedSweep>,
     path: &Path,
 ) -> Result<(), Failure> {
     let point = index(row, path)?;
     let problem = if point != next as u64 {
         format!("it has point {point} where {next} is due{}", missing(point, next as u64))
-    } else if !has_result(row, &row[outcome]) {
+    } else if !has_result {
         format!("the row of point {point} is not whole")
     } else if let Some(expected) = expected.filter(|expected| !is_row(&expected.sweep, &expected.columns, row, next)) {
         format!("the row of point {point} is not one of {}", shown(expected.file))

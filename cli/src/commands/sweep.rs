@@ -11,7 +11,7 @@ use crate::output;
 use crate::plot::Paper;
 use crate::progress::Progress;
 use crate::table::Format;
-use crate::table::column::{Column, Kind, fits, has_result};
+use crate::table::column::{Column, FAILURE, Kind, fits, has_result};
 use crate::table::growing::Growing;
 use crate::terminal::{json, print, warn_of_some};
 use crate::text::{printable, shown};
@@ -156,7 +156,7 @@ pub fn is_row(sweep: &Sweep, columns: &[Column], row: &StringRecord, point: usiz
     point < sweep.len()
         && of_axes().all(is_setting)
         && fits(columns, row)
-        && has_result(row, cell(OUTCOME))
+        && has_result(cell(OUTCOME), cell(FAILURE))
         && is_timed != cell(TIME).is_empty()
 }
 

@@ -7,6 +7,9 @@ use rocking::sweep::ERROR;
 /// Heading of the column of outcomes.
 pub const OUTCOME: &str = "outcome";
 
+/// Heading of the column that says why a run has no result.
+pub const FAILURE: &str = "error";
+
 /// Heading of the column that says whether the verdict of a run is determined.
 pub const TRUST: &str = "trust";
 
@@ -58,9 +61,9 @@ pub fn fits(columns: &[Column], row: &StringRecord) -> bool {
 }
 
 /// Whether a row has an outcome, or an error and no outcome.
-pub fn has_result(row: &StringRecord, outcome: &str) -> bool {
+pub fn has_result(outcome: &str, error: &str) -> bool {
     let is_fate = Fate::parse(outcome).is_some();
-    let has_error = row.iter().next_back().is_some_and(|error| !error.is_empty());
+    let has_error = !error.is_empty();
     is_fate != has_error && (is_fate || outcome == ERROR)
 }
 

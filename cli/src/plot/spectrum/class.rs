@@ -67,18 +67,18 @@ impl Class {
         self.look()[1]
     }
 
-    /// The class of a row.
-    pub fn of(outcome: &str, impacts: &str) -> Option<Class> {
+    /// The class of a row; `impacts` are `None` where they are not counted.
+    pub fn of(outcome: &str, impacts: Option<u64>) -> Option<Class> {
         Some(match (outcome, impacts) {
             ("no-uplift", _) => Class::NoUplift,
             ("slides", _) => Class::Slides,
             ("collapses", _) => Class::Collapses,
             ("rocks", _) => Class::Rocks,
-            ("overturns", "") => Class::Overturns,
-            ("overturns", "0") => Class::AtOnce,
-            ("overturns", "1") => Class::AfterOne,
-            ("overturns", "2") => Class::AfterTwo,
-            ("overturns", _) => Class::AfterMore,
+            ("overturns", None) => Class::Overturns,
+            ("overturns", Some(0)) => Class::AtOnce,
+            ("overturns", Some(1)) => Class::AfterOne,
+            ("overturns", Some(2)) => Class::AfterTwo,
+            ("overturns", Some(_)) => Class::AfterMore,
             ("error" | "undetermined", _) => Class::Error,
             _ => return None,
         })

@@ -3,10 +3,11 @@
 use super::class::Class;
 use super::refusal::NoSpectrum;
 use crate::number::counted;
-use crate::table::column::{Rows, TRUST};
-use crate::table::open;
+use crate::table::column::{OUTCOME, Rows, TRUST};
+use crate::table::{INDEX, numbered, open};
 use crate::text::printable;
 use csv::StringRecord;
+use rocking::sweep::kind_of_result;
 use rocking::trust::Degree;
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
@@ -43,9 +44,9 @@ pub struct Points {
 /// A quantity of the rows, with a number for each block or interface.
 #[derive(Clone, Debug)]
 pub struct Quantity {
-    /// Place of the first column.
-    first: usize,
-    /// Number of columns; zero where none were asked for.
+    /// Places of the columns; none where none were asked for.
+    places: Vec<usize>,
+    /// Number of columns.
     pub entries: usize,
     /// Row by row. `NaN` where a row has no answer, infinite where the column is lost.
     values: Vec<f64>,
@@ -53,26 +54,29 @@ pub struct Quantity {
 
 impl Quantity {
     /// The quantity of the columns `name_1`, `name_2` and so on of a table, without rows.
-    fn of_columns(header: &StringRecord, name: &str) -> Quantity {
-        let first = header.iter().position(|found| found == format!("{name}_1")).unwrap_or(header.len());
-        let numbered = header.iter().skip(first).zip(1..);
-        let entries = numbered.take_while(|(found, number)| *found == format!("{name}_{number}")).count();
-        Quantity { first, entries, values: Vec::new() }
-    }
-
-    /// Adds the numbers of a row; `known` replaces all of them.
     ///
     /// # Errors
-    /// The first cell that is neither blank nor a number.
-    fn add(&mut self, row: &StringRecord, known: Option<f64>) -> Result<(), String> {
-        for cell in row.iter().skip(self.first).take(self.entries) {
-            self.values.push(match cell.parse::<f64>() {
-                Ok(number) => known.unwrap_or(number.abs()),
-                // `NA` where other programs have written the table.
-                Err(_) if ["", "NA"].contains(&cell) => f64::NAN,
-                Err(_) => return Err(cell.into()),
-            });
-        }
+    /// What is wrong, if a number is left out.
+    fn of_columns(header: &[&str], name: &str) -> Result<Quantity, String> {
+        let places = numbered(header, name)?;
+        Ok(Quantity { entries: places.len(), places, values: Vec::new() })
+    }
+
+    /// Adds the numbers of a row; `known` replaces all of them. A blank is one of a block that the column of the row does not have, unless all are blank: the
+    /// number of a lost column may have been removed, as it means nothing.
+    ///
+    /// # Errors
+    /// Place of the first cell that is neither blank nor a number.
+    fn add(&mut self, row: &StringRecord, known: Option<f64>) -> Result<(), usize> {
+        let cells = || self.places.iter().map(|place| &row[*place]);
+        let blank = if cells().all(str::is_empty) { known.unwrap_or(f64::NAN) } else { f64::NAN };
+        let number = |place: &usize| match row[*place].parse::<f64>() {
+            Ok(number) => Ok(known.unwrap_or(number.abs())),
+            Err(_) if row[*place].is_empty() => Ok(blank),
+            Err(_) => Err(*place),
+        };
+        let numbers = self.places.iter().map(number).collect::<Result<Vec<f64>, usize>>()?;
+        self.values.extend(numbers);
         Ok(())
     }
 
@@ -94,17 +98,20 @@ impl Points {
         let failed = |error: std::io::Error| broken(error.to_string());
         let Rows { header, rows } = open(file).map_err(failed)?;
         let column = |name: &str| header.iter().position(|found| found == name);
-        let (Some(0), Some(outcome), Some(impacts)) = (column("index"), column("outcome"), column("impacts")) else {
-            return Err(broken("it has no columns index, outcome and impacts".into()));
-        };
-        let (trust, truncated_at) = (column(TRUST), column("truncated"));
-        let [mut angles, mut slides] = ["peak", "residual_slide"].map(|name| Quantity::of_columns(&header, name));
-        let mut axes: Vec<Axis> = header.iter().take(outcome).skip(1).map(|key| (key.into(), Vec::new())).collect();
+        let outcome = column(OUTCOME).ok_or_else(|| broken(format!("it has no column {OUTCOME}")))?;
+        let (impacts, trust, truncated_at) = (column("impacts"), column(TRUST), column("truncated"));
+        let names: Vec<&str> = header.iter().collect();
+        let quantity = |name: &str| Quantity::of_columns(&names, name).map_err(broken);
+        let (mut angles, mut slides) = (quantity("peak")?, quantity("residual_slide")?);
+        let is_axis = |place: &usize| ![INDEX, ""].contains(&names[*place]) && kind_of_result(names[*place]).is_none();
+        let places: Vec<usize> = (0..outcome).filter(is_axis).collect();
+        let mut axes: Vec<Axis> = places.iter().map(|place| (names[*place].into(), Vec::new())).collect();
         let mut seen: Vec<HashMap<String, usize>> = vec![HashMap::new(); axes.len()];
         let (mut numbers, mut classes, mut truncated) = (Vec::new(), Vec::new(), 0);
         for row in rows {
             let row = row.map_err(failed)?;
-            for ((axis, seen), value) in axes.iter_mut().zip(&mut seen).zip(row.iter().skip(1)) {
+            let values = places.iter().map(|place| &row[*place]);
+            for ((axis, seen), value) in axes.iter_mut().zip(&mut seen).zip(values) {
                 let number = seen.get(value).copied().unwrap_or_else(|| {
                     axis.1.push(value.into());
                     seen.insert(value.into(), axis.1.len() - 1);
@@ -112,22 +119,27 @@ impl Points {
                 });
                 numbers.push(number);
             }
-            let class = Class::of(&row[outcome], &row[impacts]);
-            let class = class.ok_or_else(|| broken(format!("point {} has outcome `{}`", &row[0], &row[outcome])))?;
+            let cell = |place: usize| {
+                format!("row {}, column `{}`: `{}`", classes.len() + 1, names[place], printable(&row[place]))
+            };
+            let counted = match impacts.map(|place| (place, row[place].parse::<u64>())) {
+                Some((_, Ok(count))) => Some(count),
+                Some((place, Err(_))) if !row[place].is_empty() => {
+                    return Err(broken(cell(place) + " is no number of impacts"));
+                }
+                _ => None,
+            };
+            let class = Class::of(&row[outcome], counted).ok_or_else(|| broken(cell(outcome) + " is no outcome"))?;
             let is_open = trust.is_some_and(|trust| row.get(trust) == Some(Degree::NotDetermined.name()));
             let class = if is_open && class.has_answer() { Class::NotDetermined } else { class };
-            truncated += usize::from(
-                truncated_at.and_then(|at| row.get(at)).is_some_and(|cell| cell.eq_ignore_ascii_case("true")),
-            );
+            truncated += usize::from(truncated_at.and_then(|at| row.get(at)) == Some("true"));
             let known = match class {
                 class if !class.has_answer() => Some(f64::NAN),
                 class if class.is_lost() => Some(f64::INFINITY),
                 _ => None,
             };
             for quantity in [&mut angles, &mut slides] {
-                let no_number =
-                    |cell: String| broken(format!("point {} has `{}` for a number", &row[0], printable(&cell)));
-                quantity.add(&row, known).map_err(no_number)?;
+                quantity.add(&row, known).map_err(|place| broken(cell(place) + " is no number"))?;
             }
             classes.push(class);
         }

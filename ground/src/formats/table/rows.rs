@@ -147,8 +147,8 @@ fn numbers(body: &[(usize, &str)], names: usize, fills_rows: bool) -> Result<Row
         stated_intervals: Vec::new(),
     };
     for (place, (line, text)) in body.iter().enumerate() {
-        // Spreadsheets may put every cell between quotes.
-        let text = text.replace('"', " ");
+        // Spreadsheets may put cells between quotes.
+        let text = without_quotes(text);
         let row = if decimal_comma { split(&text.replace(',', "."), *line) } else { full_row(&text, *line) };
         let row = row.map_err(|error| if rows.lines.is_empty() { unreadable(error, body) } else { error })?;
         let expected = if rows.lines.is_empty() { row.len() } else { rows.columns };
@@ -298,19 +298,33 @@ fn first_of_last_rows(body: &[(usize, &str)]) -> Option<usize> {
         .then_some(rows.first()?.0)
 }
 
-/// Whether commas stand for decimal points. There must be commas but no points; semicolons, tabs or blanks must separate the columns; and
-/// every cell may have one comma, not at its end. If only blanks separate the columns, a cell may not begin with a comma either, since blanks
-/// may stand beside any delimiter.
+/// A row without the quotes that spreadsheets put around cells. A comma within the quotes of one number is a decimal one.
+fn without_quotes(row: &str) -> String {
+    let cell = |(place, text): (usize, &str)| {
+        let is_quoted = place % 2 == 1;
+        if is_quoted && has_decimal_comma(text.trim()) { text.replace(',', ".") } else { text.to_string() }
+    };
+    row.split('"').enumerate().map(cell).collect::<Vec<_>>().join(" ")
+}
+
+/// Whether commas stand for decimal points. There must be commas; semicolons, tabs or blanks must separate the columns; and every cell may have one comma, not
+/// at its end, and no point beside it. If only blanks separate the columns, a cell may not begin with a comma and the row have no point, since blanks may
+/// stand beside any delimiter.
 fn has_decimal_commas(body: &[(usize, &str)]) -> bool {
     let cells = |text: &str| {
         let delimited = text.contains([';', '\t']);
-        text.trim()
-            .split([';', '\t', ' '])
-            .all(|cell| cell.matches(',').count() <= 1 && !cell.ends_with(',') && (delimited || !cell.starts_with(',')))
+        (delimited || !text.contains('.'))
+            && text.trim().split([';', '\t', ' ']).all(|cell| {
+                let has_comma = cell.contains(',');
+                cell.matches(',').count() <= 1
+                    && !cell.ends_with(',')
+                    && !(has_comma && cell.contains('.'))
+                    && (delimited || !cell.starts_with(','))
+            })
     };
     let any = body.iter().any(|(_, text)| text.contains(','));
     let parted = |text: &str| text.trim().contains([';', '\t', ' ']);
-    any && body.iter().all(|(_, text)| !text.contains('.') && parted(text) && cells(text))
+    any && body.iter().all(|(_, text)| parted(text) && cells(text))
 }
 
 /// Whether each row is one number with a decimal comma: below one name, or where digits after the comma begin with a zero, as no second number does.
