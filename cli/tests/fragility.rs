@@ -180,7 +180,7 @@ fn columns_may_stand_in_any_order() {
 #[test]
 fn peaks_are_numbers() {
     let folder = Folder::new();
-    for peak in ["nan", "-5", "-inf", "word", ""] {
+    for peak in ["nan", "-5", "-inf", "word"] {
         folder.write("t.csv", format!("seed,pga_g,outcome,peak_1\n1,0.1,rocks,0.1\n2,0.2,rocks,{peak}\n"));
         folder
             .refused("fragility t.csv --replicates 0", &["row 2, column `peak_1`", peak, "zero or a number above it"]);

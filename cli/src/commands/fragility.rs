@@ -183,9 +183,8 @@ impl Pooling<'_> {
             Entry::Occupied(_) => self.repeated += 1,
         }
         let is_standing = Fate::parse(&row[columns.outcome]).is_some_and(|fate| fate.is_decided() && !fate.is_lost());
-        let (first, last) = (columns.peaks.first(), columns.peaks.last());
-        let [has_first, has_last] = [first, last].map(|place| place.is_some_and(|place| !row[*place].is_empty()));
-        self.short += usize::from(is_standing && has_first && !has_last);
+        let has_last = columns.peaks.last().is_none_or(|place| !row[*place].is_empty());
+        self.short += usize::from(is_standing && !has_last);
         let record = columns.record_of(row, number);
         for (values, place) in self.values.iter_mut().zip(&columns.others) {
             values.entry(row[*place].to_string()).or_default().insert(record.clone());
@@ -230,7 +229,7 @@ impl Pooling<'_> {
         let has_other_columns = columns.others.iter().any(|place| last_part(&columns.names[*place]) == "blocks");
         let short = (self.short > 0 && !has_other_columns).then(|| {
             format!(
-                "{} run(s) that stand have no `peak_{}`: they count as those of a column with fewer blocks",
+                "{} run(s) that stand have no `peak_{}`: this block counts as below every limit there",
                 self.short,
                 columns.peaks.len()
             )
@@ -363,10 +362,6 @@ impl Columns {
             peaks: numbers(&self.peaks, 0.0, "zero or a number above it")?,
             residual_slides: numbers(&self.slides, f64::NEG_INFINITY, "a number")?,
         };
-        let is_standing = Fate::parse(&row[self.outcome]).is_some_and(|fate| fate.is_decided() && !fate.is_lost());
-        if let Some(first) = self.peaks.first().filter(|_| is_standing && cells.peaks.is_empty()) {
-            return Err(wrong(*first, "zero or a number above it"));
-        }
         // The block with which a column was lost is one of it.
         let lost = self.block.and_then(|block| row[block].parse::<usize>().ok()).unwrap_or_default();
         if !self.peaks.is_empty() && lost > self.peaks.len() {

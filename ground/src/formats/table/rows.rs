@@ -300,11 +300,13 @@ fn first_of_last_rows(body: &[(usize, &str)]) -> Option<usize> {
 
 /// A row without the quotes that spreadsheets put around cells. A comma within the quotes of one number is a decimal one.
 fn without_quotes(row: &str) -> String {
-    let cell = |(place, text): (usize, &str)| {
-        let is_quoted = place % 2 == 1;
-        if is_quoted && has_decimal_comma(text.trim()) { text.replace(',', ".") } else { text.to_string() }
-    };
-    row.split('"').enumerate().map(cell).collect::<Vec<_>>().join(" ")
+    let mut found = String::with_capacity(row.len());
+    for (place, text) in row.split('"').enumerate() {
+        let is_number = place % 2 == 1 && has_decimal_comma(text.trim());
+        found.extend((place > 0).then_some(' '));
+        found.extend(text.chars().map(|c| if is_number && c == ',' { '.' } else { c }));
+    }
+    found
 }
 
 /// Whether commas stand for decimal points. There must be commas; semicolons, tabs or blanks must separate the columns; and every cell may have one comma, not
