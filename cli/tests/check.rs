@@ -196,7 +196,8 @@ fn a_check_says_towards_which_side_a_displaced_column_is_weak() {
     assert_has(&told("-0.4"), &["is enough to open", "opens at 0.2444 g towards its weaker side"]);
 }
 
-/// A pulse that acts on the stronger side of the displaced block: the other interface has the least threshold, to its weaker side, and does not open.
+/// A displaced block that stands on all of its base opens, to either side at the same acceleration. The other interface has the least threshold, to its weaker side, and does not
+/// open.
 #[test]
 fn the_threshold_is_that_of_the_interface_which_opens_first() {
     let scene = "[[block]]\nhalf_width = 0.4\nhalf_height = 0.5\nmass = 0.8\n[[block]]\nhalf_width = 0.18\nhalf_height = 0.5\nmass = 3\n\
@@ -205,7 +206,7 @@ fn the_threshold_is_that_of_the_interface_which_opens_first() {
     assert_has(
         &told,
         &[
-            "0.3800 g is enough to open interface(s) 2 of the column at rest; the first opens at 0.3600 g towards its stronger side; the least that opens one, to its weaker side, is 0.2184 g",
+            "0.3800 g is enough to open interface(s) 2 of the column at rest; the first opens at 0.3600 g; the least that opens one, to its weaker side, is 0.2184 g",
         ],
     );
     // All interfaces open in the instant of the jump.
@@ -353,4 +354,36 @@ fn a_block_may_slide_and_open_at_once() {
     let scene = "friction = 0.3\n[[block]]\nhalf_width = 0.3\nhalf_height = 1.0\n[excitation.horizontal]\nkind = \"sine-pulse\"\namplitude_g = 0.5\nomega = 5.0\n";
     let told = Folder::with("scene.toml", scene).succeeds("check scene.toml");
     assert!(told.contains("interface 1 slides and opens at 0.3 g\n"), "{told}");
+}
+
+/// Rounding of a slide makes no side weaker; an upper block that slides shields those below; without weight blocks fly.
+#[test]
+fn what_a_check_says_of_contacts_holds_in_the_run() {
+    let folder = Folder::new();
+    let pulse = "[excitation.horizontal]\nkind = \"sine-pulse\"\namplitude_g = 0.35\nperiod = 1.0\n";
+    for slide in [0.01, 0.03, 0.06, 0.08, 0.09] {
+        // The upper base stands on the lower top with all of its width.
+        let blocks =
+            "[[block]]\nhalf_width = 0.5\nhalf_height = 0.75\n[[block]]\nhalf_width = 0.4\nhalf_height = 0.75\n";
+        folder.write("scene.toml", format!("friction = 0.3\n{blocks}[initial]\nslide = [0.0, {slide}]\n{pulse}"));
+        let contact = folder.answers("check scene.toml --json")["contacts"][1].clone();
+        assert_eq!((&contact["is_symmetric"], &contact["at_pga"]), (&true.into(), &"slides".into()), "{slide}");
+    }
+    let shielded = "[friction]\nstatic = [0.6, 0.1]\n[[block]]\nhalf_width = 0.3\nhalf_height = 0.3\nmass = 100.0\n[[block]]\nhalf_width = 0.3\nhalf_height = 0.75\n\
+        mass = 1000.0\n[excitation.horizontal]\nkind = \"sine-pulse\"\namplitude_g = 0.5\nperiod = 0.5\n";
+    folder.write("scene.toml", shielded);
+    let told = folder.succeeds("check scene.toml");
+    assert_has(
+        &told,
+        &["open interface(s) 1, 2", "interface 2 slides before, at t = 0.0160 s, and may keep all of them closed"],
+    );
+    assert!(folder.succeeds("run scene.toml --no-trust --out out").starts_with("slides"));
+    let thrown = "friction = 0.5\n[column]\nblocks = 2\nhalf_width = 0.3\nhalf_height = 1.5\n[excitation.vertical]\nkind = \"rectangular\"\namplitude_g = -1.5\n\
+        duration = 0.2\nstart = 0.1\n[output]\ntimes = [0.0, 0.4]\n";
+    folder.write("scene.toml", thrown);
+    assert_has(&folder.succeeds("check scene.toml"), &["it has no weight left at t = 0.1000 s, and flies"]);
+    // The last row is one of a flight, which has landed when the run ends.
+    folder.succeeds("run scene.toml --no-trust --out out --report");
+    let page = folder.read("out/report.html");
+    assert!(page.contains("comes to rest") && !page.contains("in flight above"), "{page}");
 }

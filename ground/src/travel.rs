@@ -46,13 +46,17 @@ impl Motion {
                 note([a, velocity, displacement]);
             }
             for times in stretches(start, end, span.piece.omega()) {
-                let mut before = [None; 2];
-                for t in times {
+                let (mut before, mut is_first, mut times) = ([None; 2], true, times.peekable());
+                while let Some(t) = times.next() {
                     state.move_with(&span.piece, t);
                     let values = [span.piece.value(t), state.velocity, state.displacement];
                     note(values);
                     if let [Some(first), Some(middle)] = before {
-                        note(std::array::from_fn(|of| crest([first, middle, values].map(|all: [f64; 3]| all[of]))));
+                        // Each parabola serves the half intervals beside its middle, those at the ends of the stretch also the halves that are left.
+                        let reach = [is_first, times.peek().is_none()].map(|is_end| if is_end { 1.0 } else { 0.5 });
+                        let of = |of| crest([first, middle, values].map(|all: [f64; 3]| all[of]), reach);
+                        note(std::array::from_fn(of));
+                        is_first = false;
                     }
                     before = [before[1], Some(values)];
                 }
@@ -66,10 +70,12 @@ impl Motion {
     }
 }
 
-/// The extreme of the parabola through three values at equal intervals, if it lies between them; else the middle one.
-fn crest([a, b, c]: [f64; 3]) -> f64 {
+/// The extreme of the parabola through three values at equal intervals, if it lies no further from the middle than `reach` intervals to either side; else the
+/// middle value.
+fn crest([a, b, c]: [f64; 3], reach: [f64; 2]) -> f64 {
     let bend = (c - b) - (b - a);
-    if (b - a) * (c - b) <= 0.0 && bend != 0.0 { b - (c - a) * (c - a) / (8.0 * bend) } else { b }
+    let place = -0.5 * (c - a) / bend;
+    if (-reach[0]..=reach[1]).contains(&place) { b - (c - a) * (c - a) / (8.0 * bend) } else { b }
 }
 
 /// Number of times per radian at which a formula is evaluated for its peaks. The crest of a sine is that of a parabola through three of them but for
@@ -154,6 +160,23 @@ mod tests {
             // h^6 times sixth derivatives of (4 rad/s)^6: 1e-12; sums of two thousand roundings.
             assert!((found[0] - velocity).abs() < 1e-12, "{motion:?}: {found:?}, {velocity}");
             assert!((found[1] - displacement).abs() < 1e-12, "{motion:?}: {found:?}, {displacement}");
+        }
+    }
+
+    /// A crest within half an interval of the end of the run, or of the beginning of another term, is found as any other.
+    #[test]
+    fn crests_beside_an_end_are_found() {
+        let pulse = Motion::SinePulse { amplitude: 4.0, omega: TAU, start: 0.0 };
+        for until in [0.2501, 0.251, 0.252, 0.254, 0.2549, 0.3] {
+            let [pga, ..] = pulse.peaks(0.0, until);
+            assert!((pga - 4.0).abs() < 4e-6, "{until}: {pga}");
+            let other = Motion::Rectangular { amplitude: -1.0, start: until, duration: 0.5 };
+            let [pga, ..] = Motion::Sum { terms: vec![pulse.clone(), other] }.peaks(0.0, 0.6);
+            assert!((pga - 4.0).abs() < 4e-6, "{until}: {pga}");
+        }
+        for from in [0.2451, 0.248, 0.2499] {
+            let [pga, ..] = pulse.peaks(from, 0.6);
+            assert!((pga - 4.0).abs() < 4e-6, "{from}: {pga}");
         }
     }
 

@@ -89,15 +89,26 @@ fn scene(blocks: usize, record: Option<&NamedRecord>) -> String {
             );
         }
     }
-    let t_end = record.and_then(|record| record.duration).map_or(T_END, |duration| (duration + AFTERWARDS).ceil());
-    text.push_str(&include_str!("init/tail.toml").replace("{t_end}", &format!("{t_end:.1}")));
+    let t_end = match record.map(|record| record.duration) {
+        Some(None) => {
+            "# t_end = 60.0                   # s; without it, as long as the record and time to rock after it".into()
+        }
+        None => end_of_run(T_END),
+        Some(Some(duration)) => end_of_run((duration + AFTERWARDS).ceil()),
+    };
+    text.push_str(&include_str!("init/tail.toml").replace("{t_end}", &t_end));
     text
+}
+
+/// The line of the key `t_end` `[s]`.
+fn end_of_run(t_end: f64) -> String {
+    format!("t_end = {t_end:.1}                     # s: long enough for the motion and the rocking after it")
 }
 
 /// Half-height of the column that a new scene describes `[m]`.
 const HALF_HEIGHT: f64 = 1.56;
 
-/// End of the run for a pulse, and for a record of unknown duration `[s]`.
+/// End of the run for a pulse `[s]`.
 const T_END: f64 = 20.0;
 /// Time from the end of a record to the end of the run, which is rounded up to whole seconds `[s]`.
 const AFTERWARDS: f64 = 10.0;

@@ -41,7 +41,15 @@ fn end_of_run(results: &Results) -> (&'static str, String) {
                 1 => String::new(),
                 _ => format!(", block {} first", escape(&results.block_name(block - 1))),
             });
-            ("overturned", format!("The column <strong>overturns</strong> at t&nbsp;=&nbsp;{t}&nbsp;s{first}."))
+            let angle = results.options.overturn_angle;
+            let sentence = match response.ends_below_balance(&results.column, angle) {
+                true => format!(
+                    "The column <strong>reaches solver.overturn_angle</strong> = {} rad, below its balance, at t&nbsp;=&nbsp;{t}&nbsp;s{first}.",
+                    significant(angle, 4)
+                ),
+                false => format!("The column <strong>overturns</strong> at t&nbsp;=&nbsp;{t}&nbsp;s{first}."),
+            };
+            ("overturned", sentence)
         }
         _ if response.may_overturn => (
             "rocking",
@@ -131,7 +139,9 @@ fn places(results: &Results) -> String {
         .map(|&interface| {
             let way = report.way_slid[interface];
             let one_way = |start: f64| (report.residual_slide[interface] - start).abs() + SMALLEST_SLIDE;
-            let is_reversed = start(interface).is_some_and(|start| way > one_way(start));
+            // Flights displace blocks as well.
+            let is_reversed =
+                report.flights[interface] == 0 && start(interface).is_some_and(|start| way > one_way(start));
             format!(
                 "interface {} by {}{}",
                 interface + 1,
@@ -165,7 +175,9 @@ fn stayed(results: &Results, report: &SlidingReport, moved: &[usize]) -> String 
     }
     let place = |&block: &usize| {
         let below = if block == 0 { "the ground".into() } else { format!("block {block}") };
-        let where_to = match response.samples.last().and_then(|row| row.gap.get(block)) {
+        // Rows may end before the run does, with a flight that was to land.
+        let last = response.samples.last().filter(|row| row.t >= response.t_final);
+        let where_to = match last.and_then(|row| row.gap.get(block)) {
             Some(gap) if *gap > 0.0 => format!("in flight above {below}"),
             _ => format!("{} on {below}{}", sideways(report.residual_slide[block]), at_start(results, block)),
         };

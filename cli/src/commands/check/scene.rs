@@ -71,6 +71,9 @@ struct ContactFindings {
     slides_from: Option<f64>,
     /// First time at which the ground motion opens this contact of a column still at rest `[s]`; `None` if never.
     opens_from: Option<f64>,
+    /// When the vertical motion takes all weight from a contact that neither slides nor opens before `[s]`.
+    #[serde(skip)]
+    weightless: Option<f64>,
     /// Whether both sides take the same.
     is_symmetric: bool,
     /// `rests`, `slides`, `rocks` or `slides-and-rocks` under the largest horizontal acceleration of the ground; `None` if the ground moves vertically
@@ -113,6 +116,7 @@ impl ContactFindings {
             opens_at,
             slides_from,
             opens_from,
+            weightless: None,
             is_symmetric,
             at_pga,
             coefficient_to_rock: needed,
@@ -130,6 +134,9 @@ impl ContactFindings {
         let Some(at_pga) = self.at_pga else {
             let side = if self.is_symmetric { "" } else { ", to its weaker side," };
             let first = match (self.slides_from, self.opens_from) {
+                _ if self.weightless.is_some() => {
+                    format!("it has no weight left at t = {:.4} s, and flies", self.weightless.unwrap_or_default())
+                }
                 (None, None) => "neither".into(),
                 (Some(slides), None) => format!("it slides, at t = {slides:.4} s"),
                 (Some(slides), Some(opens)) if slides < opens => format!("it slides first, at t = {slides:.4} s"),
@@ -229,8 +236,14 @@ impl Findings {
                 .iter()
                 .flat_map(|friction| {
                     stacks.iter().zip(&openings).zip(&slips).map(|((stack, opens), slides)| {
-                        let is_symmetric = column.centroid_offset(stack.interface - 1) == 0.0;
-                        ContactFindings::of(stack, friction, pga_alone, is_symmetric, [*slides, *opens])
+                        let is_symmetric = offset(column, stack.interface - 1) == 0.0;
+                        let gives = [*slides, *opens];
+                        let lift = |t: f64| scene.excitation.vertical.as_ref().map_or(0.0, |motion| motion.value(t));
+                        let weightless = slides.filter(|t| *slides == *opens && lift(*t) <= -column.gravity());
+                        ContactFindings {
+                            weightless,
+                            ..ContactFindings::of(stack, friction, pga_alone, is_symmetric, gives)
+                        }
                     })
                 })
                 .collect(),
@@ -409,7 +422,7 @@ impl Findings {
         };
         let _ = writeln!(
             text,
-            "\nfriction: {}; blocks slide and fly\neach interface by itself, the stack above as one body at rest (if a lower one opens or slides, those above may hold):",
+            "\nfriction: {}; blocks slide and fly\neach interface by itself, the stack above as one body at rest (if another one opens or slides before, it may hold):",
             coefficients(friction)
         );
         for contact in &self.contacts {
@@ -430,6 +443,18 @@ impl Findings {
             }
         }
         self.openings(text, scene);
+    }
+
+    /// A clause on the interface that slides before any opens; empty if none does.
+    fn slip_before_opening(&self) -> String {
+        let slips = self.contacts.iter().filter_map(|contact| Some((contact.slides_from?, contact.interface)));
+        let first = slips.min_by(|(t, _), (other, _)| t.total_cmp(other));
+        match first.filter(|(t, _)| self.first_opening.is_some_and(|opening| *t < opening)) {
+            Some((t, interface)) => {
+                format!("; interface {interface} slides before, at t = {t:.4} s, and may keep all of them closed")
+            }
+            None => String::new(),
+        }
     }
 
     /// Which interfaces the ground motion opens of the column at rest.
@@ -472,7 +497,7 @@ impl Findings {
                     ),
                     _ => writeln!(
                         text,
-                        "  {pga:.4} g is enough to open interface(s) {interfaces} of the column at rest{}",
+                        "  {pga:.4} g is enough to open interface(s) {interfaces} of the column at rest{}{}",
                         first.map_or_else(String::new, |(threshold, side)| {
                             let threshold = threshold / gravity;
                             let least = match lowest < threshold * (1.0 - 1e-9) {
@@ -480,7 +505,8 @@ impl Findings {
                                 false => String::new(),
                             };
                             format!("; the first opens at {threshold:.4} g{side}{least}")
-                        })
+                        }),
+                        self.slip_before_opening()
                     ),
                 }
             }
@@ -488,12 +514,18 @@ impl Findings {
     }
 }
 
+/// Offset of the stack's centre of gravity from the middle of the contact `[m]`; zero where it is rounding of a slide.
+fn offset(column: &Column, interface: usize) -> f64 {
+    let offset = column.centroid_offset(interface);
+    if offset.abs() <= ROUNDING_OF_RATIOS * column.contact_half_width(interface) { 0.0 } else { offset }
+}
+
 /// The horizontal ground acceleration at which the interface that a motion opens first begins to open `[m/s²]`, and the side to which it does where both sides
 /// differ: of several that open at once, the one that takes least. `openings`: when each interface opens `[s]`. `None` if none does.
 fn first_threshold(column: &Column, motion: &Motion, openings: &[Option<f64>]) -> Option<(f64, &'static str)> {
     let threshold = |(interface, t): (usize, &Option<f64>)| {
         let t = (*t)?;
-        let (offset, push) = (column.centroid_offset(interface), motion.value(t));
+        let (offset, push) = (offset(column, interface), motion.value(t));
         // A ground that accelerates to the right tips the blocks to the left. Without a push only a stack that leans beyond its support opens, to its weaker side.
         let nearer = if push == 0.0 { offset.abs() } else { -offset * push.signum() };
         let lever = column.contact_half_width(interface) - nearer;
