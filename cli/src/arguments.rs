@@ -245,13 +245,13 @@ pub struct Record {
     #[arg(long)]
     pub lenient: bool,
     /// Multiply the accelerations.
-    #[arg(long, value_name = "F", conflicts_with_all = ["pga", "scale_to"], value_parser = finite)]
+    #[arg(long, value_name = "F", conflicts_with_all = ["pga_g", "scale_to"], value_parser = finite)]
     pub scale: Option<f64>,
     /// Scale to this peak, in g.
-    #[arg(long = "pga-g", alias = "pga", value_name = "G", value_parser = positive)]
-    pub pga: Option<f64>,
+    #[arg(long, alias = "pga", value_name = "G", value_parser = positive)]
+    pub pga_g: Option<f64>,
     /// Scale to a size of any measure: pga, pga_g, pgv, pgd, arias, cav, `sa(PERIOD)`, `sa_g(PERIOD DAMPING)`; pga_uplift and pgv_uplift with --scene.
-    #[arg(long, value_name = "MEASURE=SIZE", conflicts_with = "pga", value_parser = target)]
+    #[arg(long, value_name = "MEASURE=SIZE", conflicts_with = "pga_g", value_parser = target)]
     pub scale_to: Option<Target>,
     /// Print the spectral acceleration at this period in s; may be given several times.
     #[arg(long, value_name = "PERIOD", value_parser = positive)]

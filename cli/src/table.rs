@@ -7,6 +7,7 @@ pub mod column;
 pub mod growing;
 #[cfg(feature = "parquet")]
 pub mod parquet;
+pub mod runs;
 mod tidy;
 
 use crate::error::Failure;

@@ -13,6 +13,7 @@ use crate::plot::{self, Figure, Paper};
 use crate::progress::Progress;
 use crate::table::column::{Column, FAILURE, Kind, Rows, TRUST, fits, has_result};
 use crate::table::growing::Growing;
+use crate::table::runs;
 use crate::table::{Format, open};
 use crate::terminal::{json, print, warn, warn_of_some};
 use crate::text::{printable, shown};
@@ -63,7 +64,7 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     table.close(format, &columns)?;
 
     // What follows is made of the table, so that it is the same whether or not the study was interrupted.
-    let runs = fragility::read(out, None, &[])?.runs;
+    let runs = runs::read(out, None, &[])?.runs;
     let stripes = stripes(&runs);
     output::csv(&stripes_file, |table| write_stripes(table, ida, &stripes))?;
     let measure = ida.intensity().to_string();
@@ -128,7 +129,7 @@ pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<Option<String
     if !has("peak_1") {
         return Err(Failure::Study(table.into(), "it has no columns peak_1, ..., which its figure shows".into()));
     }
-    let read = fragility::read(table, None, &[])?;
+    let read = runs::read(table, None, &[])?;
     warn(&read.warnings);
     let label = read.measure.parse().map_or(read.measure.clone(), |intensity: Intensity| intensity.label());
     let (states, options) = asked(table)?.unwrap_or_else(|| (DEFAULT_STATES.to_vec(), FragilityOptions::default()));

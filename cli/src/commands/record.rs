@@ -95,7 +95,7 @@ fn scaled(
     if let Some(factor) = arguments.scale {
         record = record.scaled(factor).map_err(refused)?;
     }
-    if let Some(peak) = arguments.pga {
+    if let Some(peak) = arguments.pga_g {
         record = record.scaled_to_peak(peak * gravity).map_err(refused)?;
     }
     let Some(Target { mut intensity, names_damping, size }) = arguments.scale_to else { return Ok(record) };

@@ -192,13 +192,10 @@ fn records(sweep: &Sweep) -> Vec<PathBuf> {
     records
 }
 
-pub use crate::table::column::{OUTCOME, TRUST};
+pub use crate::table::column::{OUTCOME, TRUNCATED, TRUST};
 
 /// The column of the time of overturning.
 pub const TIME: &str = "overturned_at";
-
-/// The column of the table that says whether a run was truncated: the blocks stand at `t_end`, and the ground moves on, they may overturn, or they slide on.
-pub const TRUNCATED: &str = "truncated";
 
 /// The columns of the table of a sweep.
 pub fn columns(sweep: &Sweep) -> Result<Vec<Column>, Failure> {

@@ -7,6 +7,9 @@ use rocking::sweep::ERROR;
 /// Heading of the column of outcomes.
 pub const OUTCOME: &str = "outcome";
 
+/// Heading of the column that says whether a run was truncated: the blocks stand at `t_end`, and the ground moves on, they may overturn, or they slide on.
+pub const TRUNCATED: &str = "truncated";
+
 /// Heading of the column that says why a run has no result.
 pub const FAILURE: &str = "error";
 

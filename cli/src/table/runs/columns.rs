@@ -1,0 +1,170 @@
+//! The columns of a table of runs, by their names, and the run of a row.
+
+use crate::table::column::{OUTCOME, TRUNCATED, TRUST};
+use crate::table::{INDEX, numbered};
+use csv::StringRecord;
+use rocking::intensity::Intensity;
+use rocking::studies::{self, Cells, Observation};
+use rocking::sweep::kind_of_result;
+
+/// Settings that are no axes.
+const NO_AXES: [&str; 2] = [INDEX, "scale"];
+
+/// The columns of a table of runs, by their places.
+pub struct Columns {
+    /// Header of the table.
+    pub names: Vec<String>,
+    /// The number of a run, in a table that numbers its runs.
+    pub index: Option<usize>,
+    /// What says which run a row is of: all columns but those of results, wherever they stand.
+    pub settings: Vec<usize>,
+    /// Columns whose cells name the record of a run.
+    pub records: Vec<usize>,
+    /// The column with the level of the measure.
+    pub level: usize,
+    /// Settings that are neither the record nor the measure: other axes of a sweep.
+    pub others: Vec<usize>,
+    pub outcome: usize,
+    /// The block with which a column was lost.
+    pub block: Option<usize>,
+    pub uplift: Option<usize>,
+    pub trust: Option<usize>,
+    pub truncated: Option<usize>,
+    /// One for each block.
+    pub peaks: Vec<usize>,
+    /// One for each interface.
+    pub slides: Vec<usize>,
+}
+
+impl Columns {
+    /// The number of a run, in a table that numbers its runs.
+    pub fn number(&self, row: &StringRecord) -> Option<usize> {
+        row[self.index?].parse().ok()
+    }
+
+    /// The columns with these names; without a measure, the level is the one column that has the name of a measure. The error says what is wrong
+    /// with the table.
+    pub fn of(names: Vec<String>, measure: Option<&str>) -> Result<Columns, String> {
+        if names.is_empty() {
+            return Err("it is empty; give the table of a finished study".into());
+        }
+        let level = level(&names, measure)?;
+        let column = |name: &str| names.iter().position(|own| own == name);
+        let outcome = column(OUTCOME)
+            .ok_or_else(|| format!("it has no column `{OUTCOME}`; give a table of `rocking ida` or `rocking sweep`"))?;
+        let records = studies::record_columns(&names);
+        let settings: Vec<usize> = (0..names.len())
+            .filter(|place| kind_of_result(&names[*place]).is_none() && !names[*place].is_empty())
+            .collect();
+        let is_other =
+            |place: &usize| *place != level && !records.contains(place) && !NO_AXES.contains(&names[*place].as_str());
+        Ok(Columns {
+            others: settings.iter().copied().filter(is_other).collect(),
+            index: column(INDEX),
+            settings,
+            records,
+            level,
+            outcome,
+            block: column("block"),
+            uplift: column("first_uplift"),
+            trust: column(TRUST),
+            truncated: column(TRUNCATED),
+            peaks: numbered(&names, "peak")?,
+            slides: numbered(&names, "residual_slide")?,
+            names,
+        })
+    }
+
+    /// Conditions with the places of their columns. The error names a column that is not there.
+    pub fn conditions<'c>(&self, given: &'c [(String, String)]) -> Result<Vec<(usize, &'c str)>, String> {
+        let known = || self.names.join(", ");
+        let place = |name: &str| {
+            let place = self.names.iter().position(|own| own == name);
+            place.ok_or_else(|| format!("there is no column `{name}`; it has {}", known()))
+        };
+        given.iter().map(|(name, value)| Ok((place(name)?, value.as_str()))).collect()
+    }
+
+    /// The name of the record of a row.
+    pub fn record_of(&self, row: &StringRecord, number: usize) -> String {
+        match &self.records[..] {
+            [] if studies::is_of_one_record(&self.names, self.level) => "the record of the scene".into(),
+            [] => format!("run {}", number + 1),
+            columns => columns.iter().map(|place| &row[*place]).collect::<Vec<_>>().join(", "),
+        }
+    }
+
+    /// The run of a row, counted from zero. The error says what is wrong with a cell, after the number of the row.
+    pub fn observation(&self, row: &StringRecord, number: usize) -> Result<Observation, String> {
+        let wrong = |place: usize, wanted: &str| {
+            format!(", column `{}`: `{}` is not {wanted}; correct the cell", self.names[place], &row[place])
+        };
+        let level: Option<f64> = row[self.level].parse().ok();
+        let level = level.filter(|level| level.is_finite() && *level > 0.0);
+        // Columns of blocks that this row's column does not have are blank, at the end.
+        let numbers = |places: &[usize], least: f64, wanted: &str| -> Result<Vec<f64>, String> {
+            let filled = places.iter().rposition(|place| !row[*place].is_empty()).map_or(0, |last| last + 1);
+            let number = |place: &usize| {
+                let number: Option<f64> = row[*place].parse().ok();
+                // A stack that does not stand by itself has infinite peaks.
+                number.filter(|number| *number >= least).ok_or_else(|| wrong(*place, wanted))
+            };
+            places[..filled].iter().map(number).collect()
+        };
+        let has_uplift = |place: usize| match row[place].parse::<f64>() {
+            _ if row[place].is_empty() => Ok(false),
+            Ok(time) if time >= 0.0 => Ok(true),
+            _ => Err(wrong(place, "a time")),
+        };
+        let cells = Cells {
+            record: self.record_of(row, number),
+            level: level.ok_or_else(|| wrong(self.level, "a number above zero"))?,
+            outcome: Some(&row[self.outcome]),
+            trust: self.trust.map(|trust| &row[trust]),
+            has_uplift: self.uplift.map(has_uplift).transpose()?,
+            peaks: numbers(&self.peaks, 0.0, "zero or a number above it")?,
+            residual_slides: numbers(&self.slides, f64::NEG_INFINITY, "a number")?,
+        };
+        // The block with which a column was lost is one of it.
+        let lost = self.block.and_then(|block| row[block].parse::<usize>().ok()).unwrap_or_default();
+        if !self.peaks.is_empty() && lost > self.peaks.len() {
+            return Err(format!(
+                ": block {lost} was lost, and the table has no column `peak_{lost}`; give all of them"
+            ));
+        }
+        Observation::try_from(cells).map_err(|refused| format!(", {refused}"))
+    }
+}
+
+/// The column of the level: that of the measure or, without one, the one column that has the name of a measure.
+fn level(names: &[String], measure: Option<&str>) -> Result<usize, String> {
+    let known = || names.join(", ");
+    let is_wanted = |name: &str| match measure {
+        Some(measure) => name == measure,
+        // The whole heading is tried as well: a measure with a period, such as `sa(0.5)`, contains a point itself.
+        None => is_measure(name) || is_measure(&last_part(name)),
+    };
+    let wanted: Vec<usize> = (0..names.len()).filter(|place| is_wanted(&names[*place])).collect();
+    match (&wanted[..], measure) {
+        ([level], _) => Ok(*level),
+        (_, Some(measure)) => Err(format!("there is no column `{measure}`; it has {}", known())),
+        ([], None) => Err(format!("no column has the name of a measure; choose one of {} with --measure", known())),
+        (several, None) => {
+            // A study has its measure beside the scale of the record; others may be properties of the records.
+            let of_study = several.iter().find(|place| **place > 0 && names[**place - 1] == "scale");
+            let several: Vec<&str> = several.iter().map(|place| names[*place].as_str()).collect();
+            of_study.copied().ok_or_else(|| {
+                format!("several columns are measures; choose one of {} with --measure", several.join(", "))
+            })
+        }
+    }
+}
+
+/// The last part of the heading of an axis, a dotted key of the scene. It may name a measure.
+pub fn last_part(heading: &str) -> String {
+    heading.rsplit('.').next().unwrap_or(heading).to_string()
+}
+
+pub fn is_measure(name: &str) -> bool {
+    name.parse::<Intensity>().is_ok()
+}

@@ -1,0 +1,123 @@
+//! What the rows of a table have in common: rows of several axes in one curve, runs given twice, runs that are missing or cut.
+
+use super::columns::{Columns, last_part};
+use crate::table::column::TRUNCATED;
+use csv::StringRecord;
+use rocking::Fate;
+use std::collections::hash_map::Entry;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+/// The warning that numbers of runs, in any order and perhaps of several studies, have gaps; `None` if they have none.
+pub fn missing(mut numbers: Vec<usize>) -> Option<String> {
+    numbers.sort_unstable();
+    numbers.dedup();
+    let (place, next) = numbers.iter().enumerate().find(|(place, number)| place != *number)?;
+    let several = numbers[numbers.len() - 1] + 1 - numbers.len();
+    let first = if next - place == 1 {
+        format!("run {place} is missing")
+    } else {
+        format!("runs {place} to {} are missing", next - 1)
+    };
+    Some(if several > next - place { format!("{first}, and {} more", several - (next - place)) } else { first })
+}
+
+/// What is gathered of all rows that are read, beside their runs.
+pub struct Pooling<'c> {
+    columns: &'c Columns,
+    /// For each column that is neither the record nor the measure: the records that have each of its values.
+    values: Vec<BTreeMap<String, BTreeSet<String>>>,
+    records: BTreeSet<String>,
+    /// The number and the row of the first run with these settings.
+    seen: HashMap<String, (String, usize)>,
+    /// Number of runs with the settings of another one, and another number.
+    repeated: usize,
+    /// Number of runs that stand and have no peak of the last block.
+    short: usize,
+    /// Number of runs that end before their ground motion, or while the column may be falling.
+    cut: usize,
+}
+
+impl Pooling<'_> {
+    pub fn new(columns: &Columns) -> Pooling<'_> {
+        Pooling {
+            columns,
+            values: vec![BTreeMap::new(); columns.others.len()],
+            records: BTreeSet::new(),
+            seen: HashMap::new(),
+            repeated: 0,
+            short: 0,
+            cut: 0,
+        }
+    }
+
+    /// Adds a row, counted from zero. The error says, after the number of the row, that its run has been added before.
+    pub fn add(&mut self, row: &StringRecord, number: usize) -> Result<(), String> {
+        let columns = self.columns;
+        // Studies with other records may be pooled: their runs have the same numbers.
+        let is_number = |place: &&usize| columns.index == Some(**place);
+        let settings = columns.settings.iter().filter(|place| !is_number(place)).map(|place| &row[*place]);
+        let index = columns.index.map(|index| &row[index]);
+        match self.seen.entry(settings.collect::<Vec<_>>().join(",")) {
+            Entry::Vacant(free) => {
+                free.insert((index.unwrap_or_default().into(), number));
+            }
+            Entry::Occupied(first) if index == Some(&first.get().0) => {
+                return Err(format!(": the run stands in row {} as well; give each run once", first.get().1 + 1));
+            }
+            Entry::Occupied(_) => self.repeated += 1,
+        }
+        let is_standing = Fate::parse(&row[columns.outcome]).is_some_and(|fate| fate.is_decided() && !fate.is_lost());
+        let has_last = columns.peaks.last().is_none_or(|place| !row[*place].is_empty());
+        self.short += usize::from(is_standing && !has_last);
+        let record = columns.record_of(row, number);
+        for (values, place) in self.values.iter_mut().zip(&columns.others) {
+            values.entry(row[*place].to_string()).or_default().insert(record.clone());
+        }
+        self.records.insert(record);
+        self.cut += usize::from(columns.truncated.is_some_and(|truncated| &row[truncated] == "true"));
+        Ok(())
+    }
+
+    /// Columns that are neither the record nor the measure, and whose values differ; runs that were cut.
+    pub fn warnings(&self) -> Vec<String> {
+        let columns = self.columns;
+        // A value of its own for each record is a property of the record, such as its PGA.
+        let is_of_record = |values: &BTreeMap<String, BTreeSet<String>>| {
+            let is_of_one = |records: &BTreeSet<String>| records.len() == 1;
+            !columns.records.is_empty() && values.len() == self.records.len() && values.values().all(is_of_one)
+        };
+        // Nor is a value of its own for each run an axis.
+        let is_of_run = |values: &BTreeMap<String, BTreeSet<String>>| values.len() == self.seen.len() + self.repeated;
+        let is_axis = |values: &BTreeMap<String, BTreeSet<String>>| {
+            values.len() > 1 && !is_of_record(values) && !is_of_run(values)
+        };
+        let several = columns.others.iter().zip(&self.values).filter(|(_, values)| is_axis(values));
+        let pooled = several.map(|(place, values)| {
+            let (name, count) = (&columns.names[*place], values.len());
+            format!(
+                "the rows of all {count} values of `{name}` make one curve; --where {name}=VALUE keeps those of one"
+            )
+        });
+        let cut = (self.cut > 0).then(|| {
+            format!(
+                "{} run(s) end before their ground motion, while the column may be falling, or sliding (`{TRUNCATED}`), and count as standing; a later `solver.t_end` settles them",
+                self.cut
+            )
+        });
+        let repeated = (self.repeated > 0).then(|| {
+            format!(
+                "{} run(s) have all settings of a run above; if they are the same runs, give each once",
+                self.repeated
+            )
+        });
+        let has_other_columns = columns.others.iter().any(|place| last_part(&columns.names[*place]) == "blocks");
+        let short = (self.short > 0 && !has_other_columns).then(|| {
+            format!(
+                "{} run(s) that stand have no `peak_{}`: this block counts as below every limit there",
+                self.short,
+                columns.peaks.len()
+            )
+        });
+        pooled.chain(cut).chain(repeated).chain(short).collect()
+    }
+}
