@@ -55,7 +55,7 @@ pub fn list(path: &Path, arguments: &arguments::Record) -> Result<(), Failure> {
         ("plot", arguments.plot.is_some()),
         ("trim", !arguments.trim.is_empty()),
         ("scale", arguments.scale.is_some()),
-        ("pga", arguments.pga.is_some()),
+        ("pga-g", arguments.pga_g.is_some()),
         ("scale-to", arguments.scale_to.is_some()),
     ];
     if let Some((option, _)) = given.into_iter().find(|(_, given)| *given) {
