@@ -39,7 +39,7 @@ fn main() -> std::io::Result<()> {
     let threads = [1, std::thread::available_parallelism().map_or(1, usize::from)];
     let pools = threads.map(|count| rayon::ThreadPoolBuilder::new().num_threads(count).build().expect("threads"));
     let overturning = |spectrum: usize| {
-        sweep.lines(spectrum * CELLS..(spectrum + 1) * CELLS, |row| {
+        sweep.map_rows(spectrum * CELLS..(spectrum + 1) * CELLS, |row| {
             row.result.is_ok_and(|outcome| outcome.fate == Fate::Overturns)
         })
     };
@@ -119,7 +119,7 @@ fn analysis(blocks: usize, rtol: Option<f64>) -> Ida {
 
 /// Times the analyses.
 fn analyses() -> std::io::Result<()> {
-    let fates = |study: &Ida| study.lines(0..study.len(), |run| run.result.map(|found| found.fate).ok());
+    let fates = |study: &Ida| study.map_runs(0..study.len(), |run| run.result.map(|found| found.fate).ok());
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     let mut csv = format!("blocks,runs,us_per_run,overturned,other_verdicts,{}\n", common::CIRCUMSTANCES);
     let circumstances = common::circumstances();

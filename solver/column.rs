@@ -39,7 +39,8 @@ impl Block {
         Block::of_shape(Shape::Prism, [half_width; 2], half_height, mass)
     }
 
-    /// Homogeneous body of half-widths `[m]` of base and top, half-height `[m]` and mass `[kg]`.
+    /// Homogeneous body of half-widths `[m]` of base and top, half-height `[m]` and mass `[kg]`: density times [`Shape::measure`]. A block keeps no shape, and
+    /// is drawn as a prism unless [`Scene::looks`](crate::Scene::looks) say otherwise.
     ///
     /// With half-widths `a`, `b`, full height `H`, centroid `e` above the base and inertia `I` about it (docs/book/model.md, section 1),
     ///

@@ -313,7 +313,8 @@ impl Faults {
 }
 
 impl Scene {
-    /// A scene with this column at rest, no ground motion, plastic impacts and default options.
+    /// A scene with this column at rest, no ground motion, plastic impacts and default options. It ends at 10 s, whatever ground motion it is given then: for
+    /// a record, set [`SolveOptions::t_end`] to [`Scene::end_of_free_swing`], as scene files have it.
     pub fn new(column: Column) -> Scene {
         Scene {
             title: String::new(),

@@ -329,14 +329,14 @@ impl Ida {
     /// # Panics
     /// If the range ends beyond [`Ida::len`].
     pub fn runs(&self, range: Range<usize>) -> Vec<IdaRun> {
-        self.lines(range, |run| run)
+        self.map_runs(range, |run| run)
     }
 
     /// As [`Ida::runs`], but returns `made(run)` for each run. The call is on the thread that made the run.
     ///
     /// # Panics
     /// If the range ends beyond [`Ida::len`].
-    pub fn lines<T: Send>(&self, range: Range<usize>, made: impl Fn(IdaRun) -> T + Sync) -> Vec<T> {
+    pub fn map_runs<T: Send>(&self, range: Range<usize>, made: impl Fn(IdaRun) -> T + Sync) -> Vec<T> {
         let indices = range.into_par_iter().with_min_len(LEAST_RUNS);
         indices.map_init(|| self.worker(), |run, index| made(run(index))).collect()
     }

@@ -462,14 +462,14 @@ impl Sweep {
     /// # Panics
     /// If there is no such point.
     pub fn rows(&self, range: Range<usize>) -> Vec<Row> {
-        self.lines(range, |row| row)
+        self.map_rows(range, |row| row)
     }
 
     /// As [`Sweep::rows`], but returns `made(row)` for each row. The call is on the thread that made the row.
     ///
     /// # Panics
     /// If there is no such point.
-    pub fn lines<T: Send>(&self, range: Range<usize>, made: impl Fn(Row) -> T + Sync) -> Vec<T> {
+    pub fn map_rows<T: Send>(&self, range: Range<usize>, made: impl Fn(Row) -> T + Sync) -> Vec<T> {
         let points = range.into_par_iter().with_min_len(LEAST_POINTS);
         points.map_init(|| self.worker(), |row, index| made(row(index))).collect()
     }

@@ -8,6 +8,7 @@ use super::style::{self, Stroke};
 use super::time_history::{mark_ending, time_axis};
 use crate::number::coefficients;
 use rocking::Friction;
+use rocking::validity::LIGHT_CONTACT;
 
 /// Heights `[px]`.
 const NORMAL: f64 = 190.0;
@@ -19,10 +20,6 @@ const GAP: f64 = 16.0;
 const LARGEST_DEMAND: f64 = 2.0;
 /// Normal forces beyond this multiple of the weight do not extend their axis: a column that falls hits hard.
 const LARGEST_NORMAL: f64 = 5.0;
-
-/// Normal force of a contact, as a share of the weight above it, up to which it has no friction demand, as in the summary of a run: where blocks
-/// part, both forces are rounding. If the share were larger, contacts under little load would be left out.
-const LIGHT_SHARE: f64 = 1e-9;
 
 /// Lines of the scene's friction coefficients.
 const AVAILABLE: Stroke = Stroke::dashed(style::INK, 1.8, &[10.0, 5.0]);
@@ -96,7 +93,7 @@ fn contacts(motion: &DrawnRun) -> Vec<Contact> {
             if sample.t > until {
                 continue;
             }
-            if force.normal > LIGHT_SHARE * weight {
+            if force.normal > LIGHT_CONTACT * weight {
                 let demand = force.tangential.abs() / force.normal;
                 contact.demand.last_mut().expect("there is a first").push([sample.t, demand]);
             } else {

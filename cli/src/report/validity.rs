@@ -5,7 +5,7 @@ use crate::number::coefficients;
 use crate::report::number::{degrees, fixed, percent, significant, with_minus};
 use crate::text::escape;
 use rocking::run_folder::Results;
-use rocking::validity::{COEFFICIENTS, ContactNeeds, Extreme};
+use rocking::validity::{COEFFICIENTS, ContactNeeds, Extreme, LIGHT_CONTACT};
 use rocking::{ContactTimes, Response, SlidingReport, StopReason, Validity};
 use std::fmt::Write as _;
 
@@ -231,9 +231,6 @@ pub fn verdict(results: &Results) -> String {
 /// Largest angle that is written as zero `[rad]`: smaller ones are rounding.
 const NO_ANGLE: f64 = 1e-12;
 
-/// Largest normal force that is written as zero, as a share of the weight above: where blocks part it is rounding.
-const NO_FORCE: f64 = 1e-9;
-
 /// An extreme with its time and angle, in a cell.
 fn at(value: String, extreme: Option<&Extreme>) -> String {
     match extreme {
@@ -281,7 +278,7 @@ fn needs_table(results: &Results) -> String {
         // Where friction is modelled, no demand counts as beyond the coefficient.
         let slides =
             response.sliding.is_none() && results.available_friction().is_some_and(|friction| demand > friction);
-        let force = if force.abs() <= NO_FORCE * weight { 0.0 } else { force };
+        let force = if force.abs() <= LIGHT_CONTACT * weight { 0.0 } else { force };
         let in_words = |demand: f64| if demand.is_finite() { significant(demand, 3) } else { "none is enough".into() };
         // A contact that has never been closed has neither.
         let [demand, force] = if force.is_finite() {

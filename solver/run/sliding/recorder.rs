@@ -20,6 +20,7 @@ use crate::run::cones::slowest_impact;
 use crate::run::log::{Extremes, Log, Rows, raise};
 use crate::run::problem::Problem;
 use crate::run::rest;
+use crate::validity::LIGHT_CONTACT;
 use rocking_codegen::pattern::{Interface, Pattern};
 use std::collections::BTreeMap;
 
@@ -67,10 +68,6 @@ pub struct Node {
     pub slide_rates: PerBlock<f64>,
 }
 
-/// Normal force of a contact, as a share of the weight above it, up to which its friction demand is not recorded: both forces are rounding where blocks
-/// part. If the share were larger, contacts under little load would be left out.
-const LIGHT_SHARE: f64 = 1e-9;
-
 /// The record of a run under way.
 pub struct SlidingRecorder<'p> {
     problem: &'p Problem<'p>,
@@ -102,7 +99,7 @@ impl<'p> SlidingRecorder<'p> {
             friction,
             log: Log::new(Rows::starting_in(0, 0), extremes),
             least_normal_force: (0..blocks)
-                .map(|i| LIGHT_SHARE * problem.scene.column.mass_above(i) * problem.scene.column.gravity())
+                .map(|i| LIGHT_CONTACT * problem.scene.column.mass_above(i) * problem.scene.column.gravity())
                 .collect(),
             time_in_mode: BTreeMap::new(),
             sides: Vec::new(),

@@ -38,7 +38,7 @@ pub fn run() -> Vec<Point> {
 
     let ours = |blocks: usize| {
         let range = blocks * CELLS..(blocks + 1) * CELLS;
-        pool.install(|| sweep.lines(range, |row| row.result.expect("the scene runs").fate == Fate::Overturns))
+        pool.install(|| sweep.map_rows(range, |row| row.result.expect("the scene runs").fate == Fate::Overturns))
     };
     let by_hand =
         |longest: f64| pool.install(|| pulses.par_iter().map(|pulse| overturns(pulse, longest)).collect::<Vec<_>>());
