@@ -6,9 +6,10 @@
 //! cargo run --release --example seven_drums -- docs 0.40 0.50  these
 //! ```
 //!
-//! writes `seven-drums.csv` and `seven-drums.svg`; without lengths also `seven-drums-without-slip.csv`, of the same column where nothing slides. The ground is accelerated by `a g` for `t_p` and by `-a g/2` for `2 t_p`. Amplitudes are scanned
-//! upwards in steps of 0.01 g, and the first step that brings the column down is bisected. A run that ends where the laws of contact give no motion
-//! proves nothing: such runs are counted, shown, and taken for neither, unless the column is past its balance by far then.
+//! writes `seven-drums.csv` and `seven-drums.svg`; without lengths also `seven-drums-without-slip.csv`, of the same column where nothing slides. The
+//! ground is accelerated by `a g` for `t_p` and by `-a g/2` for `2 t_p`. Amplitudes are scanned upwards in steps of 0.01 g, and the first step that brings
+//! the column down is bisected. A run that ends where the laws of contact give no motion proves nothing: such runs are counted, shown, and taken for
+//! neither, unless the column is past its balance by far then.
 
 mod chart;
 

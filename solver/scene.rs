@@ -104,8 +104,9 @@ pub enum Wanted {
     /// History, events, peaks, forces.
     #[default]
     Everything,
-    /// Whether and how the column overturns. Nothing else is recorded: no rows, events, peaks or forces, and times in modes only with friction. Without friction
-    /// the run ends as soon as it is certain that the column does not overturn ([`crate::StopReason::Stands`]; the proof is in [`crate::outcome`]).
+    /// Whether and how the column overturns. Nothing else is recorded: no rows, events, peaks or forces, and times in modes only with friction. Without
+    /// friction the run ends as soon as it is certain that the column does not overturn ([`crate::StopReason::Stands`]; the proof is in
+    /// [`crate::outcome`]).
     Outcome,
     /// Whether the column overturns, and nothing else. As [`Wanted::Outcome`]; in addition, the run of one block on a ground without vertical motion
     /// ends as soon as it is certain that the block overturns ([`crate::StopReason::Falls`]). The time of overturning is then unknown.

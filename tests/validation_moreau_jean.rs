@@ -147,11 +147,12 @@ fn seven_drums_fall_first_at_the_amplitudes_of_event_driven_runs() {
         for row in table.lines().skip(1) {
             let cells: Vec<f64> = row.split(',').take(2).map(|cell| cell.parse().expect("a number")).collect();
             let (t_p, expected) = (cells[0], cells[1]);
+            let falls = |a: f64| largest_angle(t_p, a, friction, if t_p < 0.15 { 5e-4 } else { 1e-3 }) >= FRAC_PI_2;
             if (t_p, friction) == (0.34, 0.7) {
+                assert!(!falls(0.455) && falls(0.467));
                 continue;
             }
-            let falls = |a: f64| largest_angle(t_p, a, friction, if t_p < 0.15 { 5e-4 } else { 1e-3 }) >= FRAC_PI_2;
-            // Upwards in steps of half a percent, then four bisections.
+            // Upwards in steps of half a percent from a little below, then four bisections.
             let (mut stands, mut falls_at) = (0.96 * expected, 0.965 * expected);
             assert!(!falls(stands), "{t_p} s, {stands} g");
             while !falls(falls_at) {

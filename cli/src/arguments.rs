@@ -57,7 +57,8 @@ pub enum Command {
     /// first: they would show another run. Numbers in JSON that are not finite are the words "infinite", "-infinite" and "not a
     /// number". Regular files are read up to a size: scenes, sweeps and their records up to 64 MiB, files of a run up to 1 GiB.
     Run(Run),
-    /// Draw the figures of a run: time-history, phase-portrait, energy, forces, and slides where blocks slide; of the table of a sweep its spectrum, of a study its curves.
+    /// Draw the figures of a run: time-history, phase-portrait, energy, forces, and slides where blocks slide; of the table of a sweep its spectrum, of a
+    /// study its curves.
     Plot {
         /// Folder of a finished run, or the table of a sweep or a study (CSV or Parquet), whose figures have its name.
         #[arg(value_name = "DIR")]
@@ -204,8 +205,8 @@ pub struct Run {
     /// Run the scene alone, without the companions that say how far its verdict can be trusted.
     ///
     /// Companions are the same scene at a tighter tolerance, and with excitation, sizes and friction changed by 1e-9 and 1e-6. They, and the search for the
-    /// change of the shaking that changes the verdict, take 7 to 30 times as long as the run on one thread, and up to 70 times where nine are too few; they run on all. Without
-    /// them `response.csv` and `events.json` are the same.
+    /// change of the shaking that changes the verdict, take 7 to 30 times as long as the run on one thread, and up to 70 times where nine are too few;
+    /// they run on all. Without them `response.csv` and `events.json` are the same.
     #[arg(long)]
     pub no_trust: bool,
     /// Follow a run by its companions although it took more than five seconds.
@@ -355,10 +356,10 @@ pub struct Sweep {
     /// Draw the table (SVG, PNG or PDF by the name).
     ///
     /// With largest angles (`ask = "peaks"`): the largest |θ|/α over `rocking_period`, `p` or `R`, or else over the axis with most values, a curve for each
-    /// combination of the others, up to 12; of three records and more their fractiles; with `ask = "slides"` also FILE-slides. Otherwise, over two axes of numbers, the overturning spectrum, and
-    /// beside it FILE-minimum: the least value that overturns; the last axis goes upwards, and each combination of the others is a panel. Over one axis,
-    /// and over paired axes, a strip of what becomes of the column.
-    /// `rocking plot TABLE.csv` draws a table that is there.
+    /// combination of the others, up to 12; of three records and more their fractiles; with `ask = "slides"` also FILE-slides. Otherwise, over two axes of
+    /// numbers, the overturning spectrum, and beside it FILE-minimum: the least value that overturns; the last axis goes upwards, and each combination of
+    /// the others is a panel. Over one axis, and over paired axes, a strip of what becomes of the column. `rocking plot TABLE.csv` draws a table that is
+    /// there.
     #[arg(long, value_name = "FILE", value_parser = figure)]
     pub plot: Option<PathBuf>,
     /// Run the K-th of M parts only; `rocking merge` joins their tables.

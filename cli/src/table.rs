@@ -19,8 +19,8 @@ use rocking::trust::Degree;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
-pub use tidy::INDEX;
 use tidy::Tidy;
+pub use tidy::{INDEX, tidied_cell, tidied_heading};
 
 /// The file format of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -103,7 +103,7 @@ fn tidied(
     rows: impl Iterator<Item = std::io::Result<(StringRecord, u64)>> + 'static,
     separator: u8,
 ) -> std::io::Result<Rows> {
-    let mut tidy = Tidy::new(header, separator)?;
+    let tidy = Tidy::new(header, separator)?;
     let header = tidy.header.clone();
     let rows = rows.filter_map(move |row| row.and_then(|(row, line)| tidy.row(row, line)).transpose());
     Ok(Rows { header, rows: Box::new(rows) })

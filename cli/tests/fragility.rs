@@ -311,8 +311,7 @@ fn tables_that_other_programs_have_saved_say_the_same() {
         cell if is_number(cell) => cell.into(),
         cell => format!("\"{cell}\""),
     };
-    let german =
-        |_: &str, cell: &str| if is_number(cell) { cell.replace('.', ",") } else { cell.to_uppercase().to_lowercase() };
+    let german = |_: &str, cell: &str| if is_number(cell) { cell.replace('.', ",") } else { cell.into() };
     for (text, who) in [
         (with(&rows, ",", pandas), "pandas"),
         (with(&rows, ",", r), "R"),
@@ -374,4 +373,44 @@ fn tables_that_were_damaged_are_refused_or_have_a_warning() {
     let (_, warning) = folder.says(fit);
     assert!(warning.contains("that stand have no `peak_2`"), "{warning}");
     assert_eq!(folder.says("plot t.csv").1, warning);
+}
+
+/// `--where` takes what the file shows, and what a tidied table has in its place.
+#[test]
+fn conditions_are_read_as_cells_are() {
+    let folder = Folder::new();
+    let rows = study();
+    let r = |_: &str, cell: &str| if cell.is_empty() { "NA".to_string() } else { cell.replace("false", "False") };
+    folder.write("t.csv", with(&rows, ",", r).replacen("record", "Record", 1));
+    let runs = |condition: &str| {
+        let told =
+            folder.says(&format!("fragility t.csv --state overturned --replicates 0 --json --where {condition}")).0;
+        let counts = parsed(&told)["fragilities"][0]["counts"].clone();
+        counts.as_array().expect("a list").iter().filter_map(|count| count["runs"].as_u64()).sum::<u64>()
+    };
+    assert_eq!(
+        [runs("truncated=False"), runs("truncated=false"), runs("Record=r1"), runs("record=r1")],
+        [30, 30, 6, 6]
+    );
+    assert_eq!([runs("pgv=0,1"), runs("pgv=0.10"), runs("first_uplift=NA"), runs("block=2.0")], [5, 5, 6, 9]);
+}
+
+/// Rows without the name of a record are of records of their own: equal levels are no repetitions. A name is a name, though it looks like a number.
+#[test]
+fn names_and_records_are_left_alone() {
+    let folder = Folder::new();
+    let rows = (0..20).map(|run| format!("0.{},{}\n", 1 + run % 4, if run % 4 > 1 { "overturns" } else { "rocks" }));
+    folder.write("t.csv", format!("pga,outcome\n{}", rows.collect::<String>()));
+    assert_eq!(folder.says("fragility t.csv --state overturned --replicates 0").1, "");
+    let names = ["001", "1", "1.0", "1e5"];
+    let runs = names.iter().enumerate().flat_map(|(number, name)| (1..5).map(move |level| (number, name, level)));
+    let rows = runs.map(|(number, name, level)| {
+        format!("{name},0.{level},{}\n", if level > 1 + number % 3 { "overturns" } else { "rocks" })
+    });
+    folder.write("t.csv", format!("record,pga,outcome\n{}", rows.collect::<String>()));
+    let (told, warning) = folder.says("fragility t.csv --state overturned --replicates 20");
+    assert!(warning.is_empty() && told.contains("4 records are "), "{told}{warning}");
+    // A line break within a name is no quote that is left open.
+    folder.write("t.csv", "record,pga,outcome\n\"Kobe\n1995, Takatori, H1\",0.1,rocks\nb,0.2,overturns\n");
+    folder.succeeds("fragility t.csv --state overturned --replicates 0");
 }

@@ -554,7 +554,7 @@ fn decimal_commas_below_a_remark_are_no_second_column() {
         samples().iter().map(|a| format!("{}\n", format!("{:.1}", 10.0 * a).replace('.', ","))).collect();
     for remark in ["# acceleration in m/s2, dt = 0.005 s", "% acc [m/s2], acc [m/s2]", "# acceleration in m/s2"] {
         let told = refused(&format!("{remark}\n{rows}"), &options());
-        assert!(told.contains("column"), "{told}");
+        assert!(told.contains("several columns that may be the acceleration"), "{told}");
     }
     // Times say that there are two columns.
     let pairs = table("# time [s], acceleration [m/s2]", |k, a| format!("{k},{}", (100.0 * a).round()));
@@ -585,4 +585,24 @@ fn cells_may_have_decimal_signs_of_their_own() {
     for row in rows {
         assert!(agrees(&read(&table("time [s],acc [m/s2]", row), &options()), 1.0, 0.01));
     }
+}
+
+/// `1,048` may be a thousand and more: where nothing says that commas are decimal signs, such a file is refused.
+#[test]
+fn signs_of_thousands_are_no_decimal_commas() {
+    let thousands = |k: usize| if k % 4 == 3 { format!("1,{:03}", 17 * k) } else { format!("{}", 900 + k) };
+    let quoted = |k: usize| format!("\"{}\"", thousands(k));
+    for separator in [";", "\t", ","] {
+        let cell: &dyn Fn(usize) -> String = if separator == "," { &quoted } else { &thousands };
+        let rows: String = (0..40).map(|k| format!("{:.2}{separator}{}\n", k as f64 / 100.0, cell(k))).collect();
+        for header in ["", &format!("time [s]{separator}acc [cm/s2]\n")] {
+            refused(&format!("{header}{rows}"), &options());
+        }
+    }
+    // A single one that cannot be a thousand settles it.
+    let rows: String = (0..40)
+        .map(|k| format!("{:.2};{}\n", k as f64 / 100.0, if k == 7 { "-0,5".into() } else { thousands(k) }))
+        .collect();
+    let file = read(&format!("time [s];acc [cm/s2]\n{rows}"), &options());
+    assert!((file.accel[7] + 0.005).abs() < 1e-12 && (file.accel[3] - 0.01051).abs() < 1e-12, "{:?}", &file.accel[..8]);
 }

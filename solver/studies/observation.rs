@@ -132,7 +132,8 @@ impl TryFrom<Cells<'_>> for Observation {
 }
 
 /// The columns of a table of runs that name the record of a run: `record` in the table of a study, in that of a sweep the axes over records
-/// ([`is_of_records`]); a bare name such as `seed` counts where there is no such key. Empty if there is none: then all rows are of one record ([`is_of_one_record`]), or each row has a record of its own.
+/// ([`is_of_records`]); a bare name such as `seed` counts where there is no such key. Empty if there is none: then all rows are of one record
+/// ([`is_of_one_record`]), or each row has a record of its own.
 pub fn record_columns<S: AsRef<str>>(header: &[S]) -> Vec<usize> {
     match header.iter().position(|name| name.as_ref() == "record") {
         Some(record) => vec![record],

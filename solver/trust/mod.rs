@@ -10,11 +10,11 @@
 //! ```
 //!
 //! The *horizon* is the time up to which the run agrees, to [`AGREEMENT`], with the companions that differ by the tolerance or by 1e-9. Up to then
-//! the scene determines the angles, and the solver finds them; slides have a horizon of their own. A verdict is *determined* if it is certain within the horizon and all companions have
-//! the same one, those with changes of 1e-6 too: four of these, or 28 where they have parted from the run before its verdict is certain. Beyond the
-//! horizon neither angles nor verdict are known: slender stacks in long shaking are chaotic, and no tolerance helps. A verdict that is certain only then
-//! is *likely* if all companions have it, 24 further ones included. `undetermined` has another meaning: a run with friction ends so where no motion
-//! follows from the laws of contact ([`StopReason::Undetermined`]).
+//! the scene determines the angles, and the solver finds them; slides have a horizon of their own. A verdict is *determined* if it is certain within the
+//! horizon and all companions have the same one, those with changes of 1e-6 too: four of these, or 28 where they have parted from the run before its
+//! verdict is certain. Beyond the horizon neither angles nor verdict are known: slender stacks in long shaking are chaotic, and no tolerance helps. A
+//! verdict that is certain only then is *likely* if all companions have it, 24 further ones included. `undetermined` has another meaning: a run with
+//! friction ends so where no motion follows from the laws of contact ([`StopReason::Undetermined`]).
 //!
 //! The run itself is not touched: its response is that of [`crate::simulate`], bit for bit.
 
@@ -63,8 +63,8 @@ const SPAN_OF_ROWS: f64 = 2.0;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Trust {
-    /// The verdict in words if it is determined: `stands`, `stands up to the end of the run` (the ground still moves, or blocks slide on, then), `overturns`, `collapses`;
-    /// otherwise `not determined`, or `ends undetermined` where no motion follows from the laws of contact.
+    /// The verdict in words if it is determined: `stands`, `stands up to the end of the run` (the ground still moves, or blocks slide on, then),
+    /// `overturns`, `collapses`; otherwise `not determined`, or `ends undetermined` where no motion follows from the laws of contact.
     pub outcome: String,
     /// Whether the verdict of the run is determined: certain within the horizon, and the same for all companions.
     pub determined: bool,
@@ -172,8 +172,8 @@ pub fn follow(scene: &Scene) -> Result<(Response, Trust), SolveError> {
 }
 
 /// Runs the companions of a finished run: the response of this scene with [`Wanted::Everything`](crate::Wanted::Everything). With one that ended early,
-/// where its outcome was certain, companions are compared up to that time alone. On one thread this takes 7 to 30 times as long as the run, up to 70 times where nine are too few; companions run
-/// on all threads of the present rayon pool.
+/// where its outcome was certain, companions are compared up to that time alone. On one thread this takes 7 to 30 times as long as the run, up to 70 times
+/// where nine are too few; companions run on all threads of the present rayon pool.
 ///
 /// # Errors
 /// [`SolveError`] where the scene does not run.

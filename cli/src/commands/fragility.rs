@@ -141,7 +141,8 @@ impl Conclusions {
         self.fragilities.iter().try_for_each(|fragility| table.serialize(Curve::of(fragility, self)))
     }
 
-    /// Writes the table of shares: the share of runs that reached each state at each level, with counts, fitted probability and band; a row per state and level.
+    /// Writes the table of shares: the share of runs that reached each state at each level, with counts, fitted probability and band; a row per state and
+    /// level.
     fn write_shares(&self, table: &mut csv::Writer<Vec<u8>>) -> Result<(), csv::Error> {
         let measure = self.measure.as_str();
         table.write_record(["state", measure, "runs", "reached", "undecided", "share", "curve", "low", "high"])?;

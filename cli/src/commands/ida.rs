@@ -122,8 +122,7 @@ pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<Option<String
     // A table that cannot be read is left to `spectrum::draw`, which reports the failure.
     let Ok(Rows { header, .. }) = open(table) else { return Ok(None) };
     let has = |name: &str| header.iter().any(|own| own == name);
-    // No axis of a sweep is called that.
-    if !has("scale") {
+    if !has("scale") || !(has("first_uplift") || has("largest_gap")) {
         return Ok(None);
     }
     if !has("peak_1") {

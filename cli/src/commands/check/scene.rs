@@ -53,6 +53,9 @@ struct Findings {
     warnings: Vec<String>,
 }
 
+/// Share of gravity that may be left where a vertical motion takes all weight: the time is found to rounding.
+const WEIGHTLESS: f64 = 1e-9;
+
 /// Rounding of ratios that may be one: a factor of restitution times Housner's ratio, accelerations that slide and that open.
 const ROUNDING_OF_RATIOS: f64 = 1e-12;
 
@@ -97,7 +100,8 @@ impl ContactFindings {
         let of_contact = |list: &[f64]| list[(stack.interface - 1).min(list.len() - 1)];
         let [coefficient, kinetic] = [&friction.fixed, &friction.kinetic].map(|list| of_contact(list));
         let (slides_at, opens_at) = (coefficient * stack.stack.gravity, stack.uplift_acceleration);
-        let opens_by = pga.filter(|pga| slides_at > opens_at && *pga > opens_at && opens_at > 0.0);
+        let slides_first = slides_at <= opens_at * (1.0 + ROUNDING_OF_RATIOS);
+        let opens_by = pga.filter(|pga| !slides_first && *pga > opens_at && opens_at > 0.0);
         let needed = opens_by.map(|pga| stack.stack.coefficient_to_rock(pga));
         let at_pga = pga.map(|pga| match needed {
             // A slide turns the stack only with more kinetic friction than that at which it opens.
@@ -105,7 +109,7 @@ impl ContactFindings {
             Some(needed) if coefficient < needed => "slides-and-rocks",
             Some(_) => "rocks",
             None if opens_at <= 0.0 => "rocks",
-            None if pga > slides_at && slides_at <= opens_at => "slides",
+            None if pga > slides_at && slides_first => "slides",
             None => "rests",
         });
         let interface = stack.interface;
@@ -133,29 +137,28 @@ impl ContactFindings {
         }
         let Some(at_pga) = self.at_pga else {
             let side = if self.is_symmetric { "" } else { ", to its weaker side," };
-            let first = match (self.slides_from, self.opens_from) {
-                _ if self.weightless.is_some() => {
-                    format!("it has no weight left at t = {:.4} s, and flies", self.weightless.unwrap_or_default())
-                }
-                (None, None) => "neither".into(),
-                (Some(slides), None) => format!("it slides, at t = {slides:.4} s"),
-                (Some(slides), Some(opens)) if slides < opens => format!("it slides first, at t = {slides:.4} s"),
-                (Some(slides), Some(opens)) if slides == opens => format!("it passes both at t = {opens:.4} s"),
-                (_, Some(opens)) => format!("it opens first, at t = {opens:.4} s"),
+            let first = match (self.weightless, self.slides_from, self.opens_from) {
+                (Some(t), ..) => format!("it has no weight left at t = {t:.4} s, and flies"),
+                (_, None, None) => "neither".into(),
+                (_, Some(slides), None) => format!("it slides, at t = {slides:.4} s"),
+                (_, Some(slides), Some(opens)) if slides < opens => format!("it slides first, at t = {slides:.4} s"),
+                (_, Some(slides), Some(opens)) if slides == opens => format!("it passes both at t = {opens:.4} s"),
+                (.., Some(opens)) => format!("it opens first, at t = {opens:.4} s"),
             };
             return format!(
                 "interface {interface} slides at {slides} g, and opens{side} at {opens} g; under this ground motion {first}"
             );
         };
-        if (self.slides_at - self.opens_at).abs() <= ROUNDING_OF_RATIOS * self.opens_at {
-            return format!("interface {interface} slides and opens at {opens} g");
-        }
-        if self.slides_at < self.opens_at {
+        let is_at_once = (self.slides_at - self.opens_at).abs() <= ROUNDING_OF_RATIOS * self.opens_at;
+        if is_at_once || self.slides_at < self.opens_at {
             let both = match at_pga {
                 "slides" => "; at the PGA it slides",
                 _ => "",
             };
-            return format!("interface {interface} slides at {slides} g before it opens at {opens} g{both}");
+            return match is_at_once {
+                true => format!("interface {interface} slides and opens at {opens} g{both}"),
+                false => format!("interface {interface} slides at {slides} g before it opens at {opens} g{both}"),
+            };
         }
         let both = self.coefficient_to_rock.map(|needed| {
             let verb = match at_pga {
@@ -239,7 +242,8 @@ impl Findings {
                         let is_symmetric = offset(column, stack.interface - 1) == 0.0;
                         let gives = [*slides, *opens];
                         let lift = |t: f64| scene.excitation.vertical.as_ref().map_or(0.0, |motion| motion.value(t));
-                        let weightless = slides.filter(|t| *slides == *opens && lift(*t) <= -column.gravity());
+                        let weightless =
+                            slides.filter(|t| *slides == *opens && lift(*t) <= -column.gravity() * (1.0 - WEIGHTLESS));
                         ContactFindings {
                             weightless,
                             ..ContactFindings::of(stack, friction, pga_alone, is_symmetric, gives)
@@ -469,7 +473,8 @@ impl Findings {
                 match self.first_opening {
                     Some(t) => writeln!(
                         text,
-                        "  {motion} opens interface(s) {interfaces} of the column at rest, the first at t = {t:.4} s"
+                        "  {motion} opens interface(s) {interfaces} of the column at rest, the first at t = {t:.4} s{}",
+                        self.slip_before_opening()
                     ),
                     None => writeln!(text, "  {motion} opens no interface of the column at rest"),
                 }
@@ -480,13 +485,16 @@ impl Findings {
                 let weaker = if is_displaced { " towards its weaker side" } else { "" };
                 let first = first_threshold(&scene.column, &motion.motion, &self.openings);
                 let is_first = |stack: &thresholds::Row| self.openings[stack.interface - 1] == self.first_opening;
-                let leaning = self.stacks.iter().find(|stack| stack.uplift_acceleration <= 0.0 && is_first(stack));
-                match &*interfaces {
-                    _ if self.first_opening.is_some() && leaning.is_some() => writeln!(
+                let is_leaning = self.stacks.iter().any(|stack| stack.uplift_acceleration <= 0.0 && is_first(stack));
+                if let Some(t) = self.first_opening.filter(|_| is_leaning) {
+                    let _ = writeln!(
                         text,
-                        "  interface(s) {interfaces} of the column at rest open, the first at t = {:.4} s: a stack that leans beyond its support, which the ground does not hold then",
-                        self.first_opening.unwrap_or_default()
-                    ),
+                        "  interface(s) {interfaces} of the column at rest open, the first at t = {t:.4} s: a stack that leans beyond its support, which the ground does not hold then{}",
+                        self.slip_before_opening()
+                    );
+                    return;
+                }
+                match &*interfaces {
                     "" if is_displaced && pga >= lowest => writeln!(
                         text,
                         "  {pga:.4} g opens no interface of the column at rest: the peak acts towards its stronger side; towards the weaker one {lowest:.4} g is enough"
@@ -526,7 +534,8 @@ fn first_threshold(column: &Column, motion: &Motion, openings: &[Option<f64>]) -
     let threshold = |(interface, t): (usize, &Option<f64>)| {
         let t = (*t)?;
         let (offset, push) = (offset(column, interface), motion.value(t));
-        // A ground that accelerates to the right tips the blocks to the left. Without a push only a stack that leans beyond its support opens, to its weaker side.
+        // A ground that accelerates to the right tips the blocks to the left. Without a push only a stack that leans beyond its support opens, to its
+        // weaker side.
         let nearer = if push == 0.0 { offset.abs() } else { -offset * push.signum() };
         let lever = column.contact_half_width(interface) - nearer;
         let side = match nearer {

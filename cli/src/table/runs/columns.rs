@@ -1,7 +1,7 @@
 //! The columns of a table of runs, by their names, and the run of a row.
 
 use crate::table::column::{OUTCOME, TRUNCATED, TRUST};
-use crate::table::{INDEX, numbered};
+use crate::table::{INDEX, numbered, tidied_cell, tidied_heading};
 use csv::StringRecord;
 use rocking::intensity::Intensity;
 use rocking::studies::{self, Cells, Observation};
@@ -75,14 +75,18 @@ impl Columns {
         })
     }
 
-    /// Conditions with the places of their columns. The error names a column that is not there.
-    pub fn conditions<'c>(&self, given: &'c [(String, String)]) -> Result<Vec<(usize, &'c str)>, String> {
-        let known = || self.names.join(", ");
-        let place = |name: &str| {
-            let place = self.names.iter().position(|own| own == name);
-            place.ok_or_else(|| format!("there is no column `{name}`; it has {}", known()))
+    /// Conditions with the places of their columns and the values that these have. The error names a column that is not there.
+    pub fn conditions(&self, given: &[(String, String)]) -> Result<Vec<(usize, String)>, String> {
+        let condition = |(name, value): &(String, String)| {
+            let heading = tidied_heading(name);
+            let place = self
+                .names
+                .iter()
+                .position(|own| *own == heading)
+                .ok_or_else(|| format!("there is no column `{name}`; it has {}", self.names.join(", ")))?;
+            Ok((place, tidied_cell(&heading, value)))
         };
-        given.iter().map(|(name, value)| Ok((place(name)?, value.as_str()))).collect()
+        given.iter().map(condition).collect()
     }
 
     /// The name of the record of a row.

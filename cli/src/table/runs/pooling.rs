@@ -21,6 +21,9 @@ pub fn missing(mut numbers: Vec<usize>) -> Option<String> {
     Some(if several > next - place { format!("{first}, and {} more", several - (next - place)) } else { first })
 }
 
+/// Largest number of values of an axis whose rows may have been pooled by mistake: a column with more of them is none.
+const MOST_VALUES: usize = 1000;
+
 /// What is gathered of all rows that are read, beside their runs.
 pub struct Pooling<'c> {
     columns: &'c Columns,
@@ -64,13 +67,16 @@ impl Pooling<'_> {
             Entry::Occupied(first) if index == Some(&first.get().0) => {
                 return Err(format!(": the run stands in row {} as well; give each run once", first.get().1 + 1));
             }
-            Entry::Occupied(_) => self.repeated += 1,
+            // Without a column that names it, each row may be of a record of its own.
+            Entry::Occupied(_) => self.repeated += usize::from(!columns.records.is_empty()),
         }
         let is_standing = Fate::parse(&row[columns.outcome]).is_some_and(|fate| fate.is_decided() && !fate.is_lost());
         let has_last = columns.peaks.last().is_none_or(|place| !row[*place].is_empty());
         self.short += usize::from(is_standing && !has_last);
         let record = columns.record_of(row, number);
-        for (values, place) in self.values.iter_mut().zip(&columns.others) {
+        for (values, place) in
+            self.values.iter_mut().zip(&columns.others).filter(|(values, _)| values.len() <= MOST_VALUES)
+        {
             values.entry(row[*place].to_string()).or_default().insert(record.clone());
         }
         self.records.insert(record);
@@ -89,7 +95,7 @@ impl Pooling<'_> {
         // Nor is a value of its own for each run an axis.
         let is_of_run = |values: &BTreeMap<String, BTreeSet<String>>| values.len() == self.seen.len() + self.repeated;
         let is_axis = |values: &BTreeMap<String, BTreeSet<String>>| {
-            values.len() > 1 && !is_of_record(values) && !is_of_run(values)
+            (2..=MOST_VALUES).contains(&values.len()) && !is_of_record(values) && !is_of_run(values)
         };
         let several = columns.others.iter().zip(&self.values).filter(|(_, values)| is_axis(values));
         let pooled = several.map(|(place, values)| {

@@ -56,8 +56,11 @@ impl Rows {
             .filter(|(_, headings)| !headings.is_empty())
             .or_else(|| {
                 let found = remark_with_headings(lines, header.clone(), rows.columns);
-                // Rows `2,3` may be numbers with a decimal comma below a sentence with a comma, unless it names times.
-                found.filter(|(_, names)| names[0].is_surely_time() || !are_single_commas(&body[first..]))
+                // Rows `2,3` may be numbers with a decimal comma below a sentence with a comma, unless it names times or the column that is asked for.
+                let is_named = |heading: &Heading| options.column.as_ref().is_some_and(|name| *name == heading.name);
+                found.filter(|(_, names)| {
+                    names[0].is_surely_time() || names.iter().any(is_named) || !are_single_commas(&body[first..])
+                })
             })
             .unwrap_or_default();
         let text = || header.clone().map(|index| (index + 1, lines[index]));
@@ -146,9 +149,10 @@ fn numbers(body: &[(usize, &str)], names: usize, fills_rows: bool) -> Result<Row
         stated_units: Vec::new(),
         stated_intervals: Vec::new(),
     };
+    let quoted_commas = has_decimal_commas_in_quotes(body);
     for (place, (line, text)) in body.iter().enumerate() {
         // Spreadsheets may put cells between quotes.
-        let text = without_quotes(text);
+        let text = without_quotes(text, quoted_commas);
         let row = if decimal_comma { split(&text.replace(',', "."), *line) } else { full_row(&text, *line) };
         let row = row.map_err(|error| if rows.lines.is_empty() { unreadable(error, body) } else { error })?;
         let expected = if rows.lines.is_empty() { row.len() } else { rows.columns };
@@ -177,7 +181,7 @@ fn uneven_row(line: usize, found: usize, expected: usize) -> RecordError {
     Entry { line, text: "", remedy }.wrong(format!("{found} number(s) where the first row has {expected}"))
 }
 
-/// A row of one cell, or of more.
+/// A row without the blanks and semicolons at its end.
 fn cell(row: &str) -> &str {
     row.trim().trim_end_matches(';').trim_end()
 }
@@ -298,35 +302,55 @@ fn first_of_last_rows(body: &[(usize, &str)]) -> Option<usize> {
         .then_some(rows.first()?.0)
 }
 
-/// A row without the quotes that spreadsheets put around cells. A comma within the quotes of one number is a decimal one.
-fn without_quotes(row: &str) -> String {
+/// A row without the quotes that spreadsheets put around cells. Commas within them become points if they are decimal ones.
+fn without_quotes(row: &str, has_decimal_commas: bool) -> String {
     let mut found = String::with_capacity(row.len());
     for (place, text) in row.split('"').enumerate() {
-        let is_number = place % 2 == 1 && has_decimal_comma(text.trim());
+        let is_number = has_decimal_commas && place % 2 == 1 && has_decimal_comma(text.trim());
         found.extend((place > 0).then_some(' '));
         found.extend(text.chars().map(|c| if is_number && c == ',' { '.' } else { c }));
     }
     found
 }
 
+/// Whether commas within the quotes of one cell of several are decimal ones: some of them is surely one.
+fn has_decimal_commas_in_quotes(body: &[(usize, &str)]) -> bool {
+    let is_sure = |row: &&str| {
+        // Between the quotes of a row of one cell a comma may part two numbers.
+        let has_several = row.trim().trim_matches('"').contains('"');
+        has_several && row.split('"').skip(1).step_by(2).any(|text| is_surely_decimal(text.trim()))
+    };
+    body.iter().any(|(_, row)| is_sure(row))
+}
+
+/// Whether the comma of a number is a decimal one, and parts no thousands as in `1,048`.
+fn is_surely_decimal(word: &str) -> bool {
+    let parts_thousands = word
+        .trim_start_matches(['+', '-'])
+        .split_once(',')
+        .is_some_and(|(whole, rest)| rest.len() == 3 && (1..=3).contains(&whole.len()) && !whole.starts_with('0'));
+    has_decimal_comma(word) && !parts_thousands
+}
+
 /// Whether commas stand for decimal points. There must be commas; semicolons, tabs or blanks must separate the columns; and every cell may have one comma, not
-/// at its end, and no point beside it. If only blanks separate the columns, a cell may not begin with a comma and the row have no point, since blanks may
-/// stand beside any delimiter.
+/// at its end. Points may stand in other cells, where semicolons or tabs separate these and some comma is surely no sign of thousands. If only blanks
+/// separate the columns, a cell may not begin with a comma either, since blanks may stand beside any delimiter.
 fn has_decimal_commas(body: &[(usize, &str)]) -> bool {
+    let has_points = body.iter().any(|(_, text)| text.contains('.'));
     let cells = |text: &str| {
         let delimited = text.contains([';', '\t']);
-        (delimited || !text.contains('.'))
-            && text.trim().split([';', '\t', ' ']).all(|cell| {
-                let has_comma = cell.contains(',');
-                cell.matches(',').count() <= 1
-                    && !cell.ends_with(',')
-                    && !(has_comma && cell.contains('.'))
-                    && (delimited || !cell.starts_with(','))
+        (delimited || !has_points)
+            && text.trim().split([';', '\t', ' ']).all(|cell| match cell.matches(',').count() {
+                0 => true,
+                1 => !cell.ends_with(',') && !cell.contains('.') && (delimited || !cell.starts_with(',')),
+                _ => false,
             })
     };
-    let any = body.iter().any(|(_, text)| text.contains(','));
+    let is_sure = |text: &&str| text.split([';', '\t']).any(|cell| is_surely_decimal(cell.trim()));
     let parted = |text: &str| text.trim().contains([';', '\t', ' ']);
-    any && body.iter().all(|(_, text)| parted(text) && cells(text))
+    body.iter().any(|(_, text)| text.contains(','))
+        && body.iter().all(|(_, text)| parted(text) && cells(text))
+        && (!has_points || body.iter().any(|(_, text)| is_sure(text)))
 }
 
 /// Whether each row is one number with a decimal comma: below one name, or where digits after the comma begin with a zero, as no second number does.
