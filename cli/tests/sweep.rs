@@ -557,3 +557,21 @@ fn a_mass_replaces_density_and_depth() {
     folder.write("sweep.toml", "scene = \"base.toml\"\n[axes]\ndensity = [1000, 2500]\n");
     folder.succeeds("sweep sweep.toml");
 }
+
+/// Titles that look like numbers are titles: shards of a sweep over them belong to it.
+#[test]
+fn shards_over_texts_that_look_like_numbers_are_merged() {
+    let folder = Folder::new();
+    folder.write("base.toml", "[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.6\n[excitation.horizontal]\nkind = \"half-sine\"\namplitude = 3.0\nomega = 5.0\n");
+    folder.write(
+        "sweep.toml",
+        "scene = \"base.toml\"\n[axes]\ntitle = [\"001\", \"1.0\", \"1e3\", \"NA\"]\nomega = [1.0, 2.5, 1e-5]\n",
+    );
+    folder.succeeds("sweep sweep.toml --out whole.csv");
+    for part in 1..=2 {
+        folder.succeeds(&format!("sweep sweep.toml --shard {part}/2 --out {part}.csv"));
+    }
+    folder.succeeds("merge merged.csv 1.csv 2.csv --sweep sweep.toml");
+    assert_eq!(folder.read("merged.csv"), folder.read("whole.csv"));
+    assert!(folder.read("whole.csv").contains("\n3,1.0,"), "{}", folder.read("whole.csv"));
+}
