@@ -16,7 +16,7 @@ pub struct Scene {
     /// gravity; also the size of one g in this scene
     #[schemars(range(min = 1e-6, max = 1e6), extend("x-unit" = "m/s²", "x-default" = "9.81"))]
     pub gravity: Option<f64>,
-    /// coefficient of Coulomb friction, or a table: blocks slide and fly where the forces ask for it
+    /// coefficient of Coulomb friction, from 0 to 1e8, or a table: blocks slide and fly where the forces ask for it
     #[schemars(extend("x-default" = "contacts hold whatever the force"))]
     pub friction: Option<Friction>,
     /// blocks, base first; or `column`
@@ -148,7 +148,7 @@ pub struct Size {
 #[derive(JsonSchema)]
 #[schemars(untagged)]
 pub enum Friction {
-    Number(#[schemars(range(min = 0))] f64),
+    Number(#[schemars(range(min = 0, max = 1e8))] f64),
     Table(Coefficients),
 }
 
@@ -156,7 +156,7 @@ pub enum Friction {
 #[derive(JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Coefficients {
-    /// of contacts that stick; one number, or one per interface, base first
+    /// of contacts that stick, from 0 to 1e8; one number, or one per interface, base first
     #[schemars(rename = "static")]
     pub fixed: NumberOrList,
     /// of contacts that slide, and of impacts; no larger than `static`
@@ -182,7 +182,7 @@ pub struct Restitution {
     /// ratio of the rates after and before an impact of the column as one body
     #[schemars(range(min = 0, max = 1), extend("x-default" = "none"))]
     pub eta: Option<f64>,
-    /// factor of the plastic relative rate at each interface, base first
+    /// factor of the plastic relative rate at each interface, 0 or above, base first
     #[schemars(extend("x-default" = "none"))]
     pub factors: Option<Vec<f64>>,
 }

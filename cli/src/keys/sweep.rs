@@ -29,7 +29,7 @@ pub struct Sweep {
 #[schemars(deny_unknown_fields)]
 pub struct Sampling {
     /// number of samples; each gives a value to every distributed axis
-    #[schemars(range(min = 1))]
+    #[schemars(range(min = 1, max = 1e7))]
     pub samples: u32,
     /// how samples are drawn
     #[schemars(extend("enum" = rocking::sweep::SamplingMethod::NAMES, "x-default" = "latin-hypercube"))]
