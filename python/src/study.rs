@@ -17,7 +17,7 @@ use rocking::intensity::Intensity;
 use rocking::studies::{
     self, Cells, Fragility, FragilityOptions, IdaFile, IdaOutcome, Layout, LimitState, Observation, RunError,
 };
-use rocking::sweep::ERROR;
+use rocking::sweep::{ERROR, kind_of_result};
 use rocking::trust::Degree;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -282,6 +282,12 @@ impl Runs<'_> {
 #[pyfunction]
 pub fn record_columns(header: Vec<String>) -> Vec<usize> {
     studies::record_columns(&header)
+}
+
+/// Whether a column of a table of runs has results, by its heading; all others say what was run.
+#[pyfunction]
+pub fn is_result(heading: &str) -> bool {
+    kind_of_result(heading).is_some()
 }
 
 /// Whether all rows of a table with these headings are of one record; `level` is the place of the measure.

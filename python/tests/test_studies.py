@@ -651,3 +651,67 @@ def test_a_study_of_the_repository_has_the_fragility_of_its_file(scenes: Path):
     curves = {state: study.fragility(state, replicates=0) for state in study.states}
     assert list(curves) == ["uplift", "peak > 0.15", "peak > 0.35", "overturned"]
     assert all(curve.layout == "stripes" for curve in curves.values())
+
+
+def _study() -> pd.DataFrame:
+    """Five records at six levels, two blocks: what `rocking ida` writes of them."""
+    runs = [(record, level) for record in range(5) for level in range(1, 7)]
+    size = np.array([level + record % 3 for record, level in runs])
+    peak = np.where(size > 5, 9.0, np.where(size > 2, 0.1 * size, 0.0))
+    return pd.DataFrame({
+        "index": range(30),
+        "record": [f"r{record}" for record, _ in runs],
+        "scale": 1.5,
+        "pgv": [level / 10 for _, level in runs],
+        "outcome": np.select([size > 5, size > 2], ["overturns", "rocks"], "no-uplift"),
+        "block": pd.array([2 if one > 5 else pd.NA for one in size], dtype="Int64"),
+        "truncated": False,
+        "first_uplift": np.where(size > 2, 1.5, np.nan),
+        "peak_1": 0.5 * peak,
+        "peak_2": peak,
+    })
+
+
+def test_columns_are_known_by_their_names() -> None:
+    """In any order, with properties of the records, and after a trip through a file, a study says the same."""
+    table = _study()
+    states = ["uplift", "overturned", "peak > 0.35"]
+    said = [rk.Study(table).fragility(state, replicates=50).to_dict() for state in states]
+    magnitude = table.record.map({f"r{k}": 6.0 + 0.1 * k for k in range(5)})
+    drift = table.peak_2.round(3) * np.linspace(1, 2, 30)
+    floats = table.astype({"index": float, "block": float, "truncated": int})
+    for changed in (
+        table[table.columns[::-1]],
+        table[["outcome", "peak_2", "pgv", "peak_1", "record", "index", "scale", "first_uplift", "block", "truncated"]],
+        table.assign(magnitude=magnitude, drift=drift),
+        table.assign(pga=table.pgv * 10),
+        floats,
+        table.sample(frac=1.0, random_state=1),
+    ):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            study = rk.Study(changed)
+            assert [study.fragility(state, replicates=50).to_dict() for state in states][0]["counts"] == said[0]["counts"]
+            assert [rk.Study(changed.sort_values("index")).fragility(state, replicates=50).to_dict() for state in states] == said
+    # Seeds of a table of floats are those of a table of whole numbers.
+    seeds = table.drop(columns="record").assign(seed=[int(name[1:]) for name in table.record])
+    halves = pd.concat([seeds[::2], seeds[1::2].astype({"seed": float})]).astype({"seed": object}).sort_values("index")
+    assert rk.Study(halves).fragility("overturned", replicates=50).bands == rk.Study(seeds).fragility("overturned", replicates=50).bands
+
+
+def test_what_would_change_an_answer_is_told() -> None:
+    table = _study()
+    for changed, told in (
+        (table.assign(column=np.repeat(["a", "b"], 15)), "all 2 values of `column` make one curve"),
+        (pd.concat([table, table], ignore_index=True).assign(index=range(60)), r"30 run\(s\) have all settings of a run above"),
+        (table.assign(truncated=(table.outcome == "rocks").astype(int)), r"15 run\(s\) end before their ground motion"),
+        (table.assign(peak_2=table.peak_2.where(table.outcome != "rocks")), r"15 run\(s\) that stand have no `peak_2`"),
+    ):
+        with pytest.warns(UserWarning, match=told):
+            rk.Study(changed).fragility("peak > 0.35", replicates=0)
+    with pytest.raises(rk.StudyError, match=r"table.iloc\[5\]: block 2 was lost, and the table has 1 column"):
+        rk.Study(table.drop(columns="peak_2")).fragility("peak > 0.35", replicates=0)
+    with pytest.raises(rk.StudyError, match="column `first_uplift`: 'NA' is no number"):
+        rk.Study(table.assign(first_uplift=table.first_uplift.astype(object).fillna("NA"))).fragility("uplift", replicates=0)
+    with pytest.raises(rk.StudyError, match="run 0 stands in the table twice"):
+        rk.Study(pd.concat([table, table])[["outcome", *table.columns.drop("outcome")]])

@@ -224,6 +224,16 @@ def _floats(table: pd.DataFrame, name: str) -> Array:
     return made
 
 
+def _settings(table: pd.DataFrame) -> list[str]:
+    """Columns that say what was run, wherever they stand: all but those of results, and the numbers of rows that pandas has written without a name."""
+    return [name for name in map(str, table.columns) if not _rocking.is_result(name) and not name.startswith("Unnamed: ")]
+
+
+def _name(cell: Any) -> str:
+    """The name of a record: a seed is a whole number, whichever column it has been joined into."""
+    return str(int(cell)) if isinstance(cell, (float, np.floating)) and float(cell).is_integer() else str(cell)
+
+
 class Study:
     """The runs of a study, and what follows from them.
 
@@ -261,6 +271,9 @@ class Study:
         self.table = table = table.astype(swapped) if swapped else table
         if measure is None:
             known = [name for name in map(str, table.columns) if _rocking.measure_label(_last(name)) is not None]
+            # A study has its measure beside the scale of the record; others may be properties of the records.
+            of_study = [name for scale, name in zip(table.columns, table.columns[1:]) if scale == "scale" and name in known]
+            known = of_study or known
             if len(known) != 1:
                 problem = f"several columns are measures: {', '.join(known)}" if known else "no column has the name of a measure"
                 raise StudyError(f"{problem}; name the column with `measure`")
@@ -273,8 +286,7 @@ class Study:
                 raise StudyError(f"the table has no column `{name}`; it has {', '.join(map(str, table.columns))}")
         if "index" in table.columns:
             # Studies with other records may be pooled: their runs have the same numbers.
-            settings = list(table.columns[: list(table.columns).index("outcome")])
-            again = table["index"][table["index"].notna() & table.duplicated(settings)]
+            again = table["index"][table["index"].notna() & table.duplicated(_settings(table))]
             if len(again):
                 raise StudyError(f"run {again.iloc[0]} stands in the table twice; give each run once")
         blank = np.flatnonzero(table["outcome"].isna())
@@ -313,24 +325,27 @@ class Study:
             blank = np.flatnonzero(table[of_records].isna().any(axis=1))
             if len(blank):
                 raise StudyError(f"table.iloc[{blank[0]}] has no `{of_records[0]}`; give each run the name of its record")
-            records = [", ".join(map(str, row)) for row in table[of_records].itertuples(index=False)]
+            records = [", ".join(map(_name, row)) for row in table[of_records].itertuples(index=False)]
         elif _rocking.is_of_one_record(names, names.index(self.measure)):
             records = ["the record of the scene"] * len(table)
         else:
             records = [f"run {number}" for number in range(1, len(table) + 1)]
 
-        axes = [name for name in names[: names.index("outcome")] if name not in ("index", "scale", self.measure)] if "outcome" in names else []
-        # The numbers of rows that pandas has written into a file without a name.
-        axes = [name for name in axes if not name.startswith("Unnamed: ")]
-        for name in axes:
+        settings = [name for name in _settings(table) if name != "index"]
+        # Beside the scale of the record other measures are properties of the scaled record.
+        measures = [name for name in names if "scale" in names and _rocking.measure_label(name) is not None]
+        for name in (name for name in settings if name not in ("scale", self.measure, *measures)):
             count = 1 if name in of_records else table[name].nunique(dropna=False)
-            # A value of its own for each record is a property of the record, such as its PGA.
+            # A value of its own for each record is a property of the record, such as its PGA; nor has an axis nearly as many values as there are runs.
             own = table[[*of_records, name]].drop_duplicates() if of_records else ()
             is_of_record = len(own) == count == len(set(records))
-            if count > 1 and not is_of_record:
+            if 1 < count <= len(table) // 2 and not is_of_record:
                 warn([f"the rows of all {count} values of `{name}` make one curve; filter the table for those of one"])
+        again = int(table.duplicated(settings).sum()) if of_records else 0
+        if again:
+            warn([f"{again} run(s) have all settings of a run above; if they are the same runs, give each once"])
         if "truncated" in names:
-            cut = int((table["truncated"].astype("string").str.lower() == "true").fillna(False).sum())
+            cut = int(table["truncated"].astype("string").str.lower().isin(["true", "1", "1.0"]).sum())
             if cut:
                 told = f"{cut} run(s) end before their ground motion, while the column may be falling, or sliding (`truncated`), and count as standing; a later t_end settles them"
                 warn([told])
@@ -345,13 +360,24 @@ class Study:
             own = [_floats(table, f"{prefix}{number}") for number in numbers]
             return np.stack(own, axis=1) if own else np.empty((len(table), 0))
 
+        peaks, outcomes = grid("peak_"), texts("outcome")
+        blocks = peaks.shape[1]
+        if blocks:
+            # The block with which a column was lost is one of it.
+            lost = np.flatnonzero(_floats(table, "block") > blocks) if "block" in names else []
+            if len(lost):
+                raise StudyError(f"table.iloc[{lost[0]}]: block {table['block'].iloc[lost[0]]:.0f} was lost, and the table has {blocks} column(s) peak_...; give all of them")
+            standing = np.isin(np.array(outcomes, dtype=object), ["no-uplift", "rocks", "slides"])
+            short = int((standing & np.isnan(peaks[:, -1])).sum())
+            if short and not any(_last(name) == "blocks" for name in names):
+                warn([f"{short} run(s) that stand have no `peak_{blocks}`: this block counts as below every limit there"])
         return Runs(
             records=records,
             levels=_floats(table, self.measure).tolist(),
-            outcomes=texts("outcome"),
+            outcomes=outcomes,
             trust=texts("trust") if "trust" in names else None,
-            uplift=table["first_uplift"].notna().tolist() if "first_uplift" in names else None,
-            peaks=grid("peak_"),
+            uplift=(~np.isnan(_floats(table, "first_uplift"))).tolist() if "first_uplift" in names else None,
+            peaks=peaks,
             slides=grid("residual_slide_"),
         )
 

@@ -7,8 +7,8 @@ use rocking::intensity::Intensity;
 use rocking::studies::{self, Cells, Observation};
 use rocking::sweep::kind_of_result;
 
-/// Settings that are no axes.
-const NO_AXES: [&str; 2] = [INDEX, "scale"];
+/// Heading of the column with the scale of the record, which studies have.
+const SCALE: &str = "scale";
 
 /// The columns of a table of runs, by their places.
 pub struct Columns {
@@ -56,8 +56,12 @@ impl Columns {
         let settings: Vec<usize> = (0..names.len())
             .filter(|place| kind_of_result(&names[*place]).is_none() && !names[*place].is_empty())
             .collect();
-        let is_other =
-            |place: &usize| *place != level && !records.contains(place) && !NO_AXES.contains(&names[*place].as_str());
+        // Beside the scale of the record other measures are properties of the scaled record.
+        let is_property = |name: &str| column(SCALE).is_some() && is_measure(name);
+        let is_other = |place: &usize| {
+            let name = names[*place].as_str();
+            *place != level && !records.contains(place) && ![INDEX, SCALE].contains(&name) && !is_property(name)
+        };
         Ok(Columns {
             others: settings.iter().copied().filter(is_other).collect(),
             index: column(INDEX),
@@ -155,7 +159,7 @@ fn level(names: &[String], measure: Option<&str>) -> Result<usize, String> {
         ([], None) => Err(format!("no column has the name of a measure; choose one of {} with --measure", known())),
         (several, None) => {
             // A study has its measure beside the scale of the record; others may be properties of the records.
-            let of_study = several.iter().find(|place| **place > 0 && names[**place - 1] == "scale");
+            let of_study = several.iter().find(|place| **place > 0 && names[**place - 1] == SCALE);
             let several: Vec<&str> = several.iter().map(|place| names[*place].as_str()).collect();
             of_study.copied().ok_or_else(|| {
                 format!("several columns are measures; choose one of {} with --measure", several.join(", "))

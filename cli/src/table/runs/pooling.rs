@@ -32,6 +32,8 @@ pub struct Pooling<'c> {
     records: BTreeSet<String>,
     /// The number and the row of the first run with these settings.
     seen: HashMap<String, (String, usize)>,
+    /// Number of runs.
+    rows: usize,
     /// Number of runs with the settings of another one, and another number.
     repeated: usize,
     /// Number of runs that stand and have no peak of the last block.
@@ -47,6 +49,7 @@ impl Pooling<'_> {
             values: vec![BTreeMap::new(); columns.others.len()],
             records: BTreeSet::new(),
             seen: HashMap::new(),
+            rows: 0,
             repeated: 0,
             short: 0,
             cut: 0,
@@ -56,6 +59,7 @@ impl Pooling<'_> {
     /// Adds a row, counted from zero. The error says, after the number of the row, that its run has been added before.
     pub fn add(&mut self, row: &StringRecord, number: usize) -> Result<(), String> {
         let columns = self.columns;
+        self.rows += 1;
         // Studies with other records may be pooled: their runs have the same numbers.
         let is_number = |place: &&usize| columns.index == Some(**place);
         let settings = columns.settings.iter().filter(|place| !is_number(place)).map(|place| &row[*place]);
@@ -92,11 +96,10 @@ impl Pooling<'_> {
             let is_of_one = |records: &BTreeSet<String>| records.len() == 1;
             !columns.records.is_empty() && values.len() == self.records.len() && values.values().all(is_of_one)
         };
-        // Nor is a value of its own for each run an axis.
-        let is_of_run = |values: &BTreeMap<String, BTreeSet<String>>| values.len() == self.seen.len() + self.repeated;
-        let is_axis = |values: &BTreeMap<String, BTreeSet<String>>| {
-            (2..=MOST_VALUES).contains(&values.len()) && !is_of_record(values) && !is_of_run(values)
-        };
+        // Nor has an axis nearly as many values as there are runs.
+        let most = MOST_VALUES.min(self.rows / 2);
+        let is_axis =
+            |values: &BTreeMap<String, BTreeSet<String>>| (2..=most).contains(&values.len()) && !is_of_record(values);
         let several = columns.others.iter().zip(&self.values).filter(|(_, values)| is_axis(values));
         let pooled = several.map(|(place, values)| {
             let (name, count) = (&columns.names[*place], values.len());
