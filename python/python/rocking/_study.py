@@ -364,7 +364,7 @@ class Study:
         blocks = peaks.shape[1]
         if blocks:
             # The block with which a column was lost is one of it.
-            lost = np.flatnonzero(_floats(table, "block") > blocks) if "block" in names else []
+            lost = np.flatnonzero(_floats(table, "block") > blocks) if "block" in names else np.empty(0, dtype=np.int64)
             if len(lost):
                 raise StudyError(f"table.iloc[{lost[0]}]: block {table['block'].iloc[lost[0]]:.0f} was lost, and the table has {blocks} column(s) peak_...; give all of them")
             standing = np.isin(np.array(outcomes, dtype=object), ["no-uplift", "rocks", "slides"])
