@@ -359,11 +359,21 @@ fn tables_that_were_damaged_are_refused_or_have_a_warning() {
             "block 2 was lost, and the table has no column `peak_2`",
         ),
         (format!("sep=,\n{plain}"), "its first line is no header"),
+        (plain.replacen(",r0,", ",,", 1), "row 1, column `record`: `` is not the name of a record"),
+        (plain.replacen("scale", "residual_slide_1", 1), "it has 2 column(s) `peak_…` and 1 `residual_slide_…`"),
         (format!("{plain}{}\n", body[3]), "the run stands in row 4 as well"),
     ] {
         folder.write("t.csv", text);
         folder.refused(fit, &[named]);
     }
+    // Joined with a table that lacks the column: runs that rock have an uplift, whatever it says.
+    let uplifts = |text: String| {
+        folder.write("t.csv", text);
+        parsed(&folder.says("fragility t.csv --state uplift --replicates 0 --json").0)["fragilities"][0]["counts"]
+            .clone()
+    };
+    let without = |name: &str, cell: &str| if name == "first_uplift" { String::new() } else { cell.into() };
+    assert_eq!(uplifts(with(&rows, ",", without)), uplifts(plain.clone()));
     let again: Vec<String> = body.iter().map(|row| format!("1{row}")).collect();
     folder.write("t.csv", format!("{plain}{}\n", again.join("\n")));
     let (_, warning) = folder.says(fit);

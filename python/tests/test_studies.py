@@ -715,3 +715,35 @@ def test_what_would_change_an_answer_is_told() -> None:
         rk.Study(table.assign(first_uplift=table.first_uplift.astype(object).fillna("NA"))).fragility("uplift", replicates=0)
     with pytest.raises(rk.StudyError, match="run 0 stands in the table twice"):
         rk.Study(pd.concat([table, table])[["outcome", *table.columns.drop("outcome")]])
+
+
+def test_a_table_set_anew_is_checked_as_the_first(tmp_path: Path) -> None:
+    table = _study()
+    study = rk.Study(table)
+    said = study.fragility("uplift", replicates=20).to_dict()
+    study.table = table.set_index(["record", "pgv"])
+    assert study.fragility("uplift", replicates=20).to_dict() == said
+    capitals = table.rename(columns={"record": "Record", "first_uplift": " First_uplift", "peak_2": "Peak_2", "outcome": "Outcome"})
+    study.table = capitals
+    assert study.fragility("uplift", replicates=20).to_dict() == said and list(study.table.columns) == list(table.columns)
+    spectra = table.assign(spectrum=[np.arange(3.0)] * 30, block=table.block.astype("category"), peak_01=1.0)
+    assert rk.Study(spectra).fragility("uplift", replicates=20).to_dict() == said
+    joined = table.assign(first_uplift=table.first_uplift.where(table["index"] < 15))
+    assert rk.Study(joined).fragility("uplift", replicates=20).counts.reached.tolist() == study.fragility("uplift", replicates=0).counts.reached.tolist()
+    for wrong, told in (
+        (table.drop(columns="outcome"), "no column `outcome`"),
+        (pd.concat([table, table]), "run 0 stands in the table twice"),
+        (table.assign(outcome=None), r"table.iloc\[0\] has no outcome"),
+    ):
+        with pytest.raises(rk.StudyError, match=told):
+            study.table = wrong
+    study = rk.Study(table.copy())
+    study.table.loc[3, "outcome"] = None
+    with pytest.raises(rk.StudyError, match=r"table.iloc\[3\] has no outcome"):
+        study.fragility("uplift")
+    for first, told in ((table.first_uplift.notna(), "values of bool"), (table.first_uplift.fillna(-1.0), "-1 is no time")):
+        with pytest.raises(rk.StudyError, match=told):
+            rk.Study(table.assign(first_uplift=first)).fragility("uplift")
+    # Beside a stack that does not stand by itself.
+    rk.Study(table.assign(peak_2=table.peak_2.where(table["index"] != 2, np.inf))).plot()
+    plt.close("all")

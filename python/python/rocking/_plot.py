@@ -72,8 +72,9 @@ def study(drawn: "Study", ax: "Axes | None" = None) -> "Axes":
         undecided |= np.array([trust == "not-determined" for trust in runs.trust], dtype=bool)
     demand = np.where(undecided, np.nan, demand)
     lost = np.isin(np.array(outcomes, dtype=object), ["overturns", "collapses"])
-    right = max(1.0, float(np.nanmax(np.where(lost, np.nan, demand), initial=0.0))) * 1.1
-    demand = np.where(lost, right, demand)
+    # Peaks of a stack that does not stand by itself are infinite.
+    right = max(1.0, float(np.nanmax(np.where(lost | ~np.isfinite(demand), np.nan, demand), initial=0.0))) * 1.1
+    demand = np.where(lost, right, np.minimum(demand, right))
     sizes = np.array(levels)
     for places in pd.Series(labels).groupby(labels, sort=False).indices.values():
         own = np.asarray(places)[np.argsort(sizes[places])]

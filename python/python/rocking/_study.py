@@ -210,8 +210,9 @@ class Runs:
 def _floats(table: pd.DataFrame, name: str) -> Array:
     """A column of numbers; blanks are NaN."""
     cells = table[name]
-    is_number = pd.api.types.is_numeric_dtype(cells) and not pd.api.types.is_complex_dtype(cells)
-    if not is_number and not pd.api.types.is_object_dtype(cells) and not pd.api.types.is_string_dtype(cells):
+    is_truth = pd.api.types.is_bool_dtype(cells)
+    is_number = pd.api.types.is_numeric_dtype(cells) and not pd.api.types.is_complex_dtype(cells) and not is_truth
+    if is_truth or not is_number and not pd.api.types.is_object_dtype(cells) and not pd.api.types.is_string_dtype(cells):
         raise StudyError(f"column `{name}` has values of {cells.dtype}; give numbers")
     if is_number:
         return np.ascontiguousarray(cells.to_numpy(dtype=np.float64, na_value=np.nan))
@@ -224,9 +225,29 @@ def _floats(table: pd.DataFrame, name: str) -> Array:
     return made
 
 
+def _tidied(table: pd.DataFrame) -> pd.DataFrame:
+    """A table with named levels of its index as columns, texts for headings, those that are read without capitals, and the byte order of the machine."""
+    # Levels of an index that have names are columns, as in tables of files.
+    if any(name is not None and name not in table.columns for name in table.index.names):
+        table = table.reset_index(level=[name for name in table.index.names if name is not None and name not in table.columns])
+    if not all(isinstance(name, str) and _heading(name) == name for name in table.columns):
+        table = table.rename(columns=_heading)
+    swapped = {name: kind.newbyteorder("=") for name, kind in table.dtypes.items() if isinstance(kind, np.dtype) and not kind.isnative}
+    return table.astype(swapped) if swapped else table
+
+
+def _heading(name: Any) -> str:
+    """A heading; one that is read has neither capitals nor blanks beside it."""
+    lower = str(name).strip().lower()
+    return lower if _rocking.is_result(lower) or lower in ("index", "record", "scale") else str(name)
+
+
 def _settings(table: pd.DataFrame) -> list[str]:
     """Columns that say what was run, wherever they stand: all but those of results, and the numbers of rows that pandas has written without a name."""
-    return [name for name in map(str, table.columns) if not _rocking.is_result(name) and not name.startswith("Unnamed: ")]
+    named = [name for name in table.columns if not _rocking.is_result(name) and not name.startswith("Unnamed: ")]
+    # Lists and arrays, such as a spectrum of each record, are none.
+    is_plain = {name: table[name].dtype != object or table[name].map(pd.api.types.is_hashable).all() for name in named}
+    return [name for name in named if is_plain[name]]
 
 
 def _name(cell: Any) -> str:
@@ -262,13 +283,7 @@ class Study:
             lazy = "the DataFrame that its method compute() returns"
             remedy = lazy if hasattr(table, "compute") else "a DataFrame of runs"
             raise TypeError(f"table is of {type(table).__name__}; give {remedy}")
-        # Levels of an index that have names are columns, as in tables of files.
-        if any(name is not None and name not in table.columns for name in table.index.names):
-            table = table.reset_index(level=[name for name in table.index.names if name is not None and name not in table.columns])
-        if not all(isinstance(name, str) for name in table.columns):
-            table = table.rename(columns=str)
-        swapped = {name: kind.newbyteorder("=") for name, kind in table.dtypes.items() if isinstance(kind, np.dtype) and not kind.isnative}
-        self.table = table = table.astype(swapped) if swapped else table
+        table = _tidied(table)
         if measure is None:
             known = [name for name in map(str, table.columns) if _rocking.measure_label(_last(name)) is not None]
             # A study has its measure beside the scale of the record; others may be properties of the records.
@@ -278,10 +293,27 @@ class Study:
                 problem = f"several columns are measures: {', '.join(known)}" if known else "no column has the name of a measure"
                 raise StudyError(f"{problem}; name the column with `measure`")
             measure = known[0]
+        self.measure = measure
+        self.table = table
+        self.states: list[str] = []
+        self._options: dict[str, Any] = {}
+
+    @property
+    def table(self) -> pd.DataFrame:
+        return self._table
+
+    @table.setter
+    def table(self, table: pd.DataFrame) -> None:
+        self._table = _tidied(table)
+        self._check()
+
+    def _check(self) -> None:
+        """Refuses a table that is not one of runs."""
+        table = self._table
         twice = table.columns[table.columns.duplicated()]
         if len(twice):
             raise StudyError(f"the table has several columns `{twice[0]}`; give each once")
-        for name in (measure, "outcome"):
+        for name in (self.measure, "outcome"):
             if name not in table.columns:
                 raise StudyError(f"the table has no column `{name}`; it has {', '.join(map(str, table.columns))}")
         if "index" in table.columns:
@@ -292,9 +324,6 @@ class Study:
         blank = np.flatnonzero(table["outcome"].isna())
         if len(blank):
             raise StudyError(f"table.iloc[{blank[0]}] has no outcome; give the table as it was made, in which a run that failed has the outcome `error`")
-        self.measure = measure
-        self.states: list[str] = []
-        self._options: dict[str, Any] = {}
 
     @classmethod
     def load(cls, file: str | os.PathLike[str], *, threads: int = 0) -> "Study":
@@ -318,7 +347,8 @@ class Study:
 
     def _runs(self) -> "Runs":
         """Columns as the library reads them, with warnings about rows that make one curve and runs that are cut."""
-        table = self.table
+        # It may have been changed in place.
+        self.table = table = _tidied(self._table)
         names = [str(name) for name in table.columns]
         of_records = [table.columns[place] for place in _rocking.record_columns(names)]
         if of_records:
@@ -354,29 +384,37 @@ class Study:
             return [None if pd.isna(cell) else str(cell) for cell in table[name]]
 
         def grid(prefix: str) -> Array:
-            numbers = sorted(int(name[len(prefix) :]) for name in names if name.startswith(prefix) and name[len(prefix) :].isdigit())
+            numbers = sorted(int(name[len(prefix) :]) for name in names if re.fullmatch(prefix + "[1-9][0-9]*", name))
             if numbers != list(range(1, len(numbers) + 1)):
                 raise StudyError(f"the columns {prefix}... have the numbers {numbers}; give all of them, from 1")
             own = [_floats(table, f"{prefix}{number}") for number in numbers]
             return np.stack(own, axis=1) if own else np.empty((len(table), 0))
 
+        uplift = None
+        if "first_uplift" in names:
+            first = _floats(table, "first_uplift")
+            before = np.flatnonzero(first < 0.0)
+            if len(before):
+                raise StudyError(f"table.iloc[{before[0]}], column `first_uplift`: {first[before[0]]:g} is no time; leave it blank where nothing opens")
+            uplift = (~np.isnan(first)).tolist()
         peaks, outcomes = grid("peak_"), texts("outcome")
         blocks = peaks.shape[1]
         if blocks:
             # The block with which a column was lost is one of it.
-            lost = np.flatnonzero(_floats(table, "block") > blocks) if "block" in names else np.empty(0, dtype=np.int64)
+            block = pd.to_numeric(table["block"].astype(object), errors="coerce") if "block" in names else pd.Series(dtype=float)
+            lost = np.flatnonzero(block > blocks)
             if len(lost):
-                raise StudyError(f"table.iloc[{lost[0]}]: block {table['block'].iloc[lost[0]]:.0f} was lost, and the table has {blocks} column(s) peak_...; give all of them")
+                raise StudyError(f"table.iloc[{lost[0]}]: block {block.iloc[lost[0]]:.0f} was lost, and the table has {blocks} column(s) peak_...; give all of them")
             standing = np.isin(np.array(outcomes, dtype=object), ["no-uplift", "rocks", "slides"])
             short = int((standing & np.isnan(peaks[:, -1])).sum())
             if short and not any(_last(name) == "blocks" for name in names):
-                warn([f"{short} run(s) that stand have no `peak_{blocks}`: this block counts as below every limit there"])
+                warn([f"{short} run(s) that stand have no `peak_{blocks}`: limit states do not see this block there"])
         return Runs(
             records=records,
             levels=_floats(table, self.measure).tolist(),
             outcomes=outcomes,
             trust=texts("trust") if "trust" in names else None,
-            uplift=(~np.isnan(_floats(table, "first_uplift"))).tolist() if "first_uplift" in names else None,
+            uplift=uplift,
             peaks=peaks,
             slides=grid("residual_slide_"),
         )

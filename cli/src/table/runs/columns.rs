@@ -54,7 +54,7 @@ impl Columns {
             .ok_or_else(|| format!("it has no column `{OUTCOME}`; give a table of `rocking ida` or `rocking sweep`"))?;
         let records = studies::record_columns(&names);
         let settings: Vec<usize> = (0..names.len())
-            .filter(|place| kind_of_result(&names[*place]).is_none() && !names[*place].is_empty())
+            .filter(|place| kind_of_result(&names[*place]).is_none() && !is_nameless(&names[*place]))
             .collect();
         // Beside the scale of the record other measures are properties of the scaled record.
         let is_property = |name: &str| column(SCALE).is_some() && is_measure(name);
@@ -62,6 +62,11 @@ impl Columns {
             let name = names[*place].as_str();
             *place != level && !records.contains(place) && ![INDEX, SCALE].contains(&name) && !is_property(name)
         };
+        let (peaks, slides) = (numbered(&names, "peak")?, numbered(&names, "residual_slide")?);
+        if !peaks.is_empty() && !slides.is_empty() && peaks.len() != slides.len() {
+            let (peaks, slides) = (peaks.len(), slides.len());
+            return Err(format!("it has {peaks} column(s) `peak_…` and {slides} `residual_slide_…`; give all of them"));
+        }
         Ok(Columns {
             others: settings.iter().copied().filter(is_other).collect(),
             index: column(INDEX),
@@ -73,8 +78,8 @@ impl Columns {
             uplift: column("first_uplift"),
             trust: column(TRUST),
             truncated: column(TRUNCATED),
-            peaks: numbered(&names, "peak")?,
-            slides: numbered(&names, "residual_slide")?,
+            peaks,
+            slides,
             names,
         })
     }
@@ -107,6 +112,9 @@ impl Columns {
         let wrong = |place: usize, wanted: &str| {
             format!(", column `{}`: `{}` is not {wanted}; correct the cell", self.names[place], &row[place])
         };
+        if let Some(place) = self.records.iter().find(|place| row[**place].is_empty()) {
+            return Err(wrong(*place, "the name of a record"));
+        }
         let level: Option<f64> = row[self.level].parse().ok();
         let level = level.filter(|level| level.is_finite() && *level > 0.0);
         // Columns of blocks that this row's column does not have are blank, at the end.
@@ -142,6 +150,11 @@ impl Columns {
         }
         Observation::try_from(cells).map_err(|refused| format!(", {refused}"))
     }
+}
+
+/// Whether a column has the numbers of rows, which other programs write without a name.
+fn is_nameless(name: &str) -> bool {
+    name.is_empty() || name.starts_with("Unnamed: ")
 }
 
 /// The column of the level: that of the measure or, without one, the one column that has the name of a measure.

@@ -122,7 +122,7 @@ impl Pooling<'_> {
         let has_other_columns = columns.others.iter().any(|place| last_part(&columns.names[*place]) == "blocks");
         let short = (self.short > 0 && !has_other_columns).then(|| {
             format!(
-                "{} run(s) that stand have no `peak_{}`: this block counts as below every limit there",
+                "{} run(s) that stand have no `peak_{}`: limit states do not see this block there",
                 self.short,
                 columns.peaks.len()
             )
