@@ -402,6 +402,13 @@ fn conditions_are_read_as_cells_are() {
         [runs("truncated=False"), runs("truncated=false"), runs("Record=r1"), runs("record=r1")],
         [30, 30, 6, 6]
     );
+    folder.write(
+        "t.csv",
+        with(&rows, ",", |name, cell| if name == "scale" { "\"1,5\"".into() } else { cell.into() })
+            .replacen("scale", "site", 1),
+    );
+    assert_eq!(runs("site=1,5"), 30);
+    folder.write("t.csv", with(&rows, ",", r));
     assert_eq!([runs("pgv=0,1"), runs("pgv=0.10"), runs("first_uplift=NA"), runs("block=2.0")], [5, 5, 6, 9]);
 }
 

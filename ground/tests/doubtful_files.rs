@@ -587,7 +587,7 @@ fn cells_may_have_decimal_signs_of_their_own() {
     }
 }
 
-/// `1,048` may be a thousand and more: where nothing says that commas are decimal signs, such a file is refused.
+/// `1,048` may be a thousand and more: beside points, or in quotes, where nothing says that commas are decimal signs, such a file is refused.
 #[test]
 fn signs_of_thousands_are_no_decimal_commas() {
     let thousands = |k: usize| if k % 4 == 3 { format!("1,{:03}", 17 * k) } else { format!("{}", 900 + k) };

@@ -730,6 +730,7 @@ def test_a_table_set_anew_is_checked_as_the_first(tmp_path: Path) -> None:
     assert rk.Study(spectra).fragility("uplift", replicates=20).to_dict() == said
     joined = table.assign(first_uplift=table.first_uplift.where(table["index"] < 15))
     assert rk.Study(joined).fragility("uplift", replicates=20).counts.reached.tolist() == study.fragility("uplift", replicates=0).counts.reached.tolist()
+    held = study.table
     for wrong, told in (
         (table.drop(columns="outcome"), "no column `outcome`"),
         (pd.concat([table, table]), "run 0 stands in the table twice"),
@@ -737,6 +738,9 @@ def test_a_table_set_anew_is_checked_as_the_first(tmp_path: Path) -> None:
     ):
         with pytest.raises(rk.StudyError, match=told):
             study.table = wrong
+        assert study.table is held
+    with pytest.raises(TypeError, match="table is of list; give a DataFrame of runs"):
+        study.table = [1]  # type: ignore[assignment]
     study = rk.Study(table.copy())
     study.table.loc[3, "outcome"] = None
     with pytest.raises(rk.StudyError, match=r"table.iloc\[3\] has no outcome"):
@@ -744,6 +748,14 @@ def test_a_table_set_anew_is_checked_as_the_first(tmp_path: Path) -> None:
     for first, told in ((table.first_uplift.notna(), "values of bool"), (table.first_uplift.fillna(-1.0), "-1 is no time")):
         with pytest.raises(rk.StudyError, match=told):
             rk.Study(table.assign(first_uplift=first)).fragility("uplift")
+    own = table.assign(Block="A", residual_slide_1=0.0, residual_slide_2=0.0)
+    assert list(rk.Study(own).table.columns) == list(own.columns)
+    for wrong, told in (
+        (own.drop(columns="residual_slide_2"), r"2 column\(s\) peak_... and 1 residual_slide_..."),
+        (table.assign(record=table.record.replace("r1", "")), r"table.iloc\[6\] has no `record`"),
+    ):
+        with pytest.raises(rk.StudyError, match=told):
+            rk.Study(wrong).fragility("uplift")
     # Beside a stack that does not stand by itself.
     rk.Study(table.assign(peak_2=table.peak_2.where(table["index"] != 2, np.inf))).plot()
     plt.close("all")

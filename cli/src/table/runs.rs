@@ -34,7 +34,7 @@ pub fn read(table: &Path, measure: Option<&str>, conditions: &[(String, String)]
     for (number, row) in found.rows.enumerate() {
         let row = row.map_err(at(Failure::Study, table))?;
         numbers.extend(columns.number(&row));
-        if conditions.iter().all(|(place, value)| is_value(&row[*place], value)) {
+        if conditions.iter().all(|(place, values)| values.iter().any(|value| is_value(&row[*place], value))) {
             let run = pooling.add(&row, number).and_then(|()| columns.observation(&row, number));
             runs.push(run.map_err(|problem| refused(format!("row {}{problem}", number + 1)))?);
         }

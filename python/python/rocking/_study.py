@@ -207,6 +207,10 @@ class Runs:
     slides: "Array"
 
 
+#: Largest number of values of an axis whose rows may have been pooled by mistake: a column with more of them is none.
+MOST_VALUES = 1000
+
+
 def _floats(table: pd.DataFrame, name: str) -> Array:
     """A column of numbers; blanks are NaN."""
     cells = table[name]
@@ -227,11 +231,18 @@ def _floats(table: pd.DataFrame, name: str) -> Array:
 
 def _tidied(table: pd.DataFrame) -> pd.DataFrame:
     """A table with named levels of its index as columns, texts for headings, those that are read without capitals, and the byte order of the machine."""
+    if not isinstance(table, pd.DataFrame):
+        lazy = "the DataFrame that its method compute() returns"
+        remedy = lazy if hasattr(table, "compute") else "a DataFrame of runs"
+        raise TypeError(f"table is of {type(table).__name__}; give {remedy}")
     # Levels of an index that have names are columns, as in tables of files.
     if any(name is not None and name not in table.columns for name in table.index.names):
         table = table.reset_index(level=[name for name in table.index.names if name is not None and name not in table.columns])
-    if not all(isinstance(name, str) and _heading(name) == name for name in table.columns):
-        table = table.rename(columns=_heading)
+    headings = {name: _heading(name) for name in table.columns}
+    # A column of the user's, `Block` beside `block`, keeps its capitals.
+    changed = {name: heading for name, heading in headings.items() if heading != name and heading not in table.columns}
+    table = table.rename(columns=changed) if changed else table
+    table = table if all(isinstance(name, str) for name in table.columns) else table.rename(columns=str)
     swapped = {name: kind.newbyteorder("=") for name, kind in table.dtypes.items() if isinstance(kind, np.dtype) and not kind.isnative}
     return table.astype(swapped) if swapped else table
 
@@ -279,10 +290,6 @@ class Study:
     """
 
     def __init__(self, table: pd.DataFrame, measure: str | None = None) -> None:
-        if not isinstance(table, pd.DataFrame):
-            lazy = "the DataFrame that its method compute() returns"
-            remedy = lazy if hasattr(table, "compute") else "a DataFrame of runs"
-            raise TypeError(f"table is of {type(table).__name__}; give {remedy}")
         table = _tidied(table)
         if measure is None:
             known = [name for name in map(str, table.columns) if _rocking.measure_label(_last(name)) is not None]
@@ -304,12 +311,10 @@ class Study:
 
     @table.setter
     def table(self, table: pd.DataFrame) -> None:
-        self._table = _tidied(table)
-        self._check()
+        self._table = self._checked(_tidied(table))
 
-    def _check(self) -> None:
-        """Refuses a table that is not one of runs."""
-        table = self._table
+    def _checked(self, table: pd.DataFrame) -> pd.DataFrame:
+        """The table, if it is one of runs."""
         twice = table.columns[table.columns.duplicated()]
         if len(twice):
             raise StudyError(f"the table has several columns `{twice[0]}`; give each once")
@@ -324,6 +329,7 @@ class Study:
         blank = np.flatnonzero(table["outcome"].isna())
         if len(blank):
             raise StudyError(f"table.iloc[{blank[0]}] has no outcome; give the table as it was made, in which a run that failed has the outcome `error`")
+        return table
 
     @classmethod
     def load(cls, file: str | os.PathLike[str], *, threads: int = 0) -> "Study":
@@ -348,11 +354,12 @@ class Study:
     def _runs(self) -> "Runs":
         """Columns as the library reads them, with warnings about rows that make one curve and runs that are cut."""
         # It may have been changed in place.
-        self.table = table = _tidied(self._table)
+        self.table = self._table
+        table = self._table
         names = [str(name) for name in table.columns]
         of_records = [table.columns[place] for place in _rocking.record_columns(names)]
         if of_records:
-            blank = np.flatnonzero(table[of_records].isna().any(axis=1))
+            blank = np.flatnonzero((table[of_records].isna() | (table[of_records] == "")).any(axis=1))
             if len(blank):
                 raise StudyError(f"table.iloc[{blank[0]}] has no `{of_records[0]}`; give each run the name of its record")
             records = [", ".join(map(_name, row)) for row in table[of_records].itertuples(index=False)]
@@ -369,7 +376,7 @@ class Study:
             # A value of its own for each record is a property of the record, such as its PGA; nor has an axis nearly as many values as there are runs.
             own = table[[*of_records, name]].drop_duplicates() if of_records else ()
             is_of_record = len(own) == count == len(set(records))
-            if 1 < count <= len(table) // 2 and not is_of_record:
+            if 1 < count <= min(MOST_VALUES, len(table) // 2) and not is_of_record:
                 warn([f"the rows of all {count} values of `{name}` make one curve; filter the table for those of one"])
         again = int(table.duplicated(settings).sum()) if of_records else 0
         if again:
@@ -398,7 +405,9 @@ class Study:
                 raise StudyError(f"table.iloc[{before[0]}], column `first_uplift`: {first[before[0]]:g} is no time; leave it blank where nothing opens")
             uplift = (~np.isnan(first)).tolist()
         peaks, outcomes = grid("peak_"), texts("outcome")
-        blocks = peaks.shape[1]
+        slides, blocks = grid("residual_slide_"), peaks.shape[1]
+        if blocks and slides.shape[1] not in (0, blocks):
+            raise StudyError(f"the table has {blocks} column(s) peak_... and {slides.shape[1]} residual_slide_...; give all of them")
         if blocks:
             # The block with which a column was lost is one of it.
             block = pd.to_numeric(table["block"].astype(object), errors="coerce") if "block" in names else pd.Series(dtype=float)
@@ -416,7 +425,7 @@ class Study:
             trust=texts("trust") if "trust" in names else None,
             uplift=uplift,
             peaks=peaks,
-            slides=grid("residual_slide_"),
+            slides=slides,
         )
 
     @property

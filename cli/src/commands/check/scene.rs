@@ -53,6 +53,9 @@ struct Findings {
     warnings: Vec<String>,
 }
 
+/// Times that differ by no more than this are one `[s]`: each is found to rounding.
+const AT_ONCE: f64 = 1e-9;
+
 /// Share of gravity that may be left where a vertical motion takes all weight: the time is found to rounding.
 const WEIGHTLESS: f64 = 1e-9;
 
@@ -80,7 +83,7 @@ struct ContactFindings {
     /// Whether both sides take the same.
     is_symmetric: bool,
     /// `rests`, `slides`, `rocks` or `slides-and-rocks` under the largest horizontal acceleration of the ground; `None` if the ground moves vertically
-    /// as well, or one side takes less than the other.
+    /// as well, one side takes less than the other, or the contact slides and opens at the same acceleration.
     at_pga: Option<&'static str>,
     /// Least coefficient with which the stack would rock at the PGA without sliding; `None` if the contact slides first, or does not open.
     coefficient_to_rock: Option<f64>,
@@ -100,8 +103,9 @@ impl ContactFindings {
         let of_contact = |list: &[f64]| list[(stack.interface - 1).min(list.len() - 1)];
         let [coefficient, kinetic] = [&friction.fixed, &friction.kinetic].map(|list| of_contact(list));
         let (slides_at, opens_at) = (coefficient * stack.stack.gravity, stack.uplift_acceleration);
-        let slides_first = slides_at <= opens_at * (1.0 + ROUNDING_OF_RATIOS);
-        let opens_by = pga.filter(|pga| !slides_first && *pga > opens_at && opens_at > 0.0);
+        // What follows where both are passed at once, no formula of one of them says.
+        let pga = pga.filter(|_| (slides_at - opens_at).abs() > ROUNDING_OF_RATIOS * opens_at.abs());
+        let opens_by = pga.filter(|pga| slides_at > opens_at && *pga > opens_at && opens_at > 0.0);
         let needed = opens_by.map(|pga| stack.stack.coefficient_to_rock(pga));
         let at_pga = pga.map(|pga| match needed {
             // A slide turns the stack only with more kinetic friction than that at which it opens.
@@ -109,7 +113,7 @@ impl ContactFindings {
             Some(needed) if coefficient < needed => "slides-and-rocks",
             Some(_) => "rocks",
             None if opens_at <= 0.0 => "rocks",
-            None if pga > slides_at && slides_first => "slides",
+            None if pga > slides_at && slides_at <= opens_at => "slides",
             None => "rests",
         });
         let interface = stack.interface;
@@ -141,24 +145,22 @@ impl ContactFindings {
                 (Some(t), ..) => format!("it has no weight left at t = {t:.4} s, and flies"),
                 (_, None, None) => "neither".into(),
                 (_, Some(slides), None) => format!("it slides, at t = {slides:.4} s"),
+                (_, Some(slides), Some(opens)) if (slides - opens).abs() <= AT_ONCE => {
+                    format!("it passes both at t = {opens:.4} s")
+                }
                 (_, Some(slides), Some(opens)) if slides < opens => format!("it slides first, at t = {slides:.4} s"),
-                (_, Some(slides), Some(opens)) if slides == opens => format!("it passes both at t = {opens:.4} s"),
                 (.., Some(opens)) => format!("it opens first, at t = {opens:.4} s"),
             };
             return format!(
                 "interface {interface} slides at {slides} g, and opens{side} at {opens} g; under this ground motion {first}"
             );
         };
-        let is_at_once = (self.slides_at - self.opens_at).abs() <= ROUNDING_OF_RATIOS * self.opens_at;
-        if is_at_once || self.slides_at < self.opens_at {
+        if self.slides_at < self.opens_at {
             let both = match at_pga {
                 "slides" => "; at the PGA it slides",
                 _ => "",
             };
-            return match is_at_once {
-                true => format!("interface {interface} slides and opens at {opens} g{both}"),
-                false => format!("interface {interface} slides at {slides} g before it opens at {opens} g{both}"),
-            };
+            return format!("interface {interface} slides at {slides} g before it opens at {opens} g{both}");
         }
         let both = self.coefficient_to_rock.map(|needed| {
             let verb = match at_pga {
@@ -242,8 +244,10 @@ impl Findings {
                         let is_symmetric = offset(column, stack.interface - 1) == 0.0;
                         let gives = [*slides, *opens];
                         let lift = |t: f64| scene.excitation.vertical.as_ref().map_or(0.0, |motion| motion.value(t));
-                        let weightless =
-                            slides.filter(|t| *slides == *opens && lift(*t) <= -column.gravity() * (1.0 - WEIGHTLESS));
+                        let weightless = slides.filter(|t| {
+                            opens.is_some_and(|opens| (t - opens).abs() <= AT_ONCE)
+                                && lift(*t) <= -column.gravity() * (1.0 - WEIGHTLESS)
+                        });
                         ContactFindings {
                             weightless,
                             ..ContactFindings::of(stack, friction, pga_alone, is_symmetric, gives)

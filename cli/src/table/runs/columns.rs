@@ -84,8 +84,8 @@ impl Columns {
         })
     }
 
-    /// Conditions with the places of their columns and the values that these have. The error names a column that is not there.
-    pub fn conditions(&self, given: &[(String, String)]) -> Result<Vec<(usize, String)>, String> {
+    /// Conditions with the places of their columns, and the value as it is given and as a tidied cell has it. The error names a column that is not there.
+    pub fn conditions(&self, given: &[(String, String)]) -> Result<Vec<(usize, [String; 2])>, String> {
         let condition = |(name, value): &(String, String)| {
             let heading = tidied_heading(name);
             let place = self
@@ -93,7 +93,7 @@ impl Columns {
                 .iter()
                 .position(|own| *own == heading)
                 .ok_or_else(|| format!("there is no column `{name}`; it has {}", self.names.join(", ")))?;
-            Ok((place, tidied_cell(&heading, value)))
+            Ok((place, [value.clone(), tidied_cell(&heading, value)]))
         };
         given.iter().map(condition).collect()
     }
