@@ -278,8 +278,8 @@ class Study:
 
     Attributes
     ----------
-    table, measure
-        As given, named levels of the table's index as columns; what follows from the table is computed when it is asked for.
+    measure : str
+        As given. What follows from the table is computed when it is asked for.
     states : list of str
         Limit states of the study's file; none for a study that was not loaded from a file.
 
@@ -307,6 +307,7 @@ class Study:
 
     @property
     def table(self) -> pd.DataFrame:
+        """The table as given, named levels of its index as columns. Another one may be set; it is checked as the first was."""
         return self._table
 
     @table.setter
