@@ -20,7 +20,7 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 use tidy::Tidy;
-pub use tidy::{INDEX, tidied_cell, tidied_heading};
+pub use tidy::{INDEX, is_nameless, tidied_cell, tidied_heading};
 
 /// The file format of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

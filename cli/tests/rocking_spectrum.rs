@@ -314,6 +314,17 @@ fn damaged_tables_are_not_drawn() {
         whole.lines().map(row).collect::<String>()
     };
     let peak = whole.lines().next().and_then(|header| header.split(',').position(|name| name == "peak_1"));
+    // Numbers of rows that pandas has written, once and again, are no axes.
+    let figure = folder.read("sweep.svg");
+    for name in ["", "Unnamed: 0"] {
+        let numbered = |(row, line): (usize, &str)| match row {
+            0 => format!("{name},{line}\n"),
+            _ => format!("{row},{line}\n"),
+        };
+        folder.write("sweep.csv", whole.lines().enumerate().map(numbered).collect::<String>());
+        folder.succeeds("plot sweep.csv");
+        assert_eq!(folder.read("sweep.svg"), figure, "{name}");
+    }
     for (damaged, told) in [
         (with(1, "1"), "points are missing"),
         (with(peak.expect("a column"), "x"), "row 8, column `peak_1`: `x` is no number"),

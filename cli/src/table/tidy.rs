@@ -148,6 +148,11 @@ impl Tidy {
     }
 }
 
+/// Whether a column has the numbers of rows, which other programs write without a name, and pandas reads back under one of its own.
+pub fn is_nameless(heading: &str) -> bool {
+    heading.is_empty() || heading.starts_with("Unnamed: ")
+}
+
 fn is_known(heading: &str) -> bool {
     kind_of_result(heading).is_some() || SETTINGS.contains(&heading)
 }

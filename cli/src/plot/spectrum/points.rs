@@ -4,7 +4,7 @@ use super::class::Class;
 use super::refusal::NoSpectrum;
 use crate::number::counted;
 use crate::table::column::{OUTCOME, Rows, TRUST};
-use crate::table::{INDEX, numbered, open};
+use crate::table::{INDEX, is_nameless, numbered, open};
 use crate::text::printable;
 use csv::StringRecord;
 use rocking::sweep::kind_of_result;
@@ -103,7 +103,8 @@ impl Points {
         let names: Vec<&str> = header.iter().collect();
         let quantity = |name: &str| Quantity::of_columns(&names, name).map_err(broken);
         let (mut angles, mut slides) = (quantity("peak")?, quantity("residual_slide")?);
-        let is_axis = |place: &usize| ![INDEX, ""].contains(&names[*place]) && kind_of_result(names[*place]).is_none();
+        let is_setting = |name: &str| name != INDEX && !is_nameless(name) && kind_of_result(name).is_none();
+        let is_axis = |place: &usize| is_setting(names[*place]);
         let places: Vec<usize> = (0..outcome).filter(is_axis).collect();
         let mut axes: Vec<Axis> = places.iter().map(|place| (names[*place].into(), Vec::new())).collect();
         let mut seen: Vec<HashMap<String, usize>> = vec![HashMap::new(); axes.len()];

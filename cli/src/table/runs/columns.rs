@@ -1,7 +1,7 @@
 //! The columns of a table of runs, by their names, and the run of a row.
 
 use crate::table::column::{OUTCOME, TRUNCATED, TRUST};
-use crate::table::{INDEX, numbered, tidied_cell, tidied_heading};
+use crate::table::{INDEX, is_nameless, numbered, tidied_cell, tidied_heading};
 use csv::StringRecord;
 use rocking::intensity::Intensity;
 use rocking::studies::{self, Cells, Observation};
@@ -150,11 +150,6 @@ impl Columns {
         }
         Observation::try_from(cells).map_err(|refused| format!(", {refused}"))
     }
-}
-
-/// Whether a column has the numbers of rows, which other programs write without a name.
-fn is_nameless(name: &str) -> bool {
-    name.is_empty() || name.starts_with("Unnamed: ")
 }
 
 /// The column of the level: that of the measure or, without one, the one column that has the name of a measure.
