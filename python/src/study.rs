@@ -148,7 +148,7 @@ impl Ida {
     /// The scene of a run, with rows at this interval, or at these times, where they are given.
     fn scene(&self, py: Python<'_>, index: usize, interval: Option<f64>, times: Option<Vec<f64>>) -> PyResult<Scene> {
         range(index, index + 1, self.ida.len())?;
-        let mut scene = self.ida.scene_of(index).map_err(|failed| run_error(py, &failed))?;
+        let mut scene = self.ida.scene_of(index).map_err(|refused| error::record(py, "", &refused))?;
         if interval.is_some() {
             (scene.output_dt, scene.output_times) = (interval, Vec::new());
         }
@@ -200,15 +200,6 @@ impl Ida {
         let errors = results.iter().map(|result| result.as_ref().err().map(ToString::to_string));
         columns.push(Column::new("error", Values::Text(errors.collect())));
         into_python(py, columns)
-    }
-}
-
-fn run_error(py: Python<'_>, failed: &RunError) -> PyErr {
-    match failed {
-        RunError::Record(refused) => error::record(py, "", refused),
-        RunError::Scene(errors) => error::faults(py, RUN.as_ref(), errors),
-        RunError::Solve(failed) => error::solve(py, failed),
-        _ => error::of_study(py, &failed.to_string()),
     }
 }
 

@@ -17,6 +17,7 @@ mod phase_motion;
 mod problem;
 mod recorder;
 mod rest;
+mod rest_guards;
 mod simulator;
 mod sliding;
 mod start_from_rest;

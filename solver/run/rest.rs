@@ -2,7 +2,8 @@
 
 use super::error::SolveError;
 use super::problem::Problem;
-use super::start_from_rest::{GroundWithBounds, earliest_start, is_thrown_open, least_uplift};
+use super::rest_guards::GroundWithBounds;
+use super::start_from_rest::{earliest_start, is_thrown_open, least_uplift};
 use super::state::State;
 use super::stretch::{Ended, Flow, Inside, Over, Panel, Stretch};
 use crate::column::Column;

@@ -1,9 +1,9 @@
 //! Studies: many runs, and what an engineer concludes from them.
 //!
 //! ```text
-//! scene, records, levels ──> ida.rs ──> runs ──> observation.rs ──> stripes.rs      fractiles of the response per level
-//!                                                               └─> fragility.rs    probability of a limit state
-//!                                                                   probit.rs       its lognormal by maximum likelihood
+//! scene, records, levels ──> ida.rs ──> ida_runs.rs ──> observation.rs ──> stripes.rs      fractiles of the response per level
+//!                                                                      └─> fragility.rs    probability of a limit state
+//!                                                                          probit.rs       its lognormal by maximum likelihood
 //! ```
 //!
 //! Rocking is not monotonic: a column that overturns at a level may stand at a higher one. No level is therefore left out or bisected.
@@ -12,6 +12,7 @@ mod file;
 mod fragility;
 mod gap;
 mod ida;
+mod ida_runs;
 mod observation;
 pub mod probit;
 mod proportion;
@@ -21,7 +22,8 @@ pub use file::IdaFile;
 pub use fragility::{
     Bands, Count, Fit, Fragility, FragilityOptions, Goodness, Layout, MOST_REPLICATES, OptionOutOfRange,
 };
-pub use ida::{Ida, IdaError, IdaOutcome, IdaRun, RunError, StudyRecord};
+pub use ida::{Ida, IdaError, IdaPoint, StudyRecord};
+pub use ida_runs::{IdaOutcome, IdaRun, RunError};
 pub use observation::{
     Cells, DEFAULT_STATES, LimitState, NoLimitState, Observation, WrongCell, is_of_one_record, record_columns,
 };

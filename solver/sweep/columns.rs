@@ -2,7 +2,9 @@
 //!
 //! Order, headings, kinds and contents are defined here; each writer formats its cells itself.
 
-use super::points::{Ask, Outcome, PointError, Sweep};
+use super::outcome::{Ask, Outcome};
+use super::points::Sweep;
+use super::rows::PointError;
 use crate::column::MOST_BLOCKS;
 use crate::scene_file::SceneFileError;
 

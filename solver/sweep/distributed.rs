@@ -1,8 +1,8 @@
 //! Distributed axes of sweep files: `{ lognormal = [median, dispersion] }` and the like, and `[sampling]`, by which their values are drawn.
 
+use super::axes::{Axis, Combine};
 use super::copula::Copula;
 use super::distribution::Distribution;
-use super::points::{Axis, Combine};
 use super::sampling::{LONGEST_SOBOL, MOST_DIMENSIONS, Sampling, SamplingMethod};
 use crate::scene_file::table::{Cause, Place, Table, Wrong};
 use crate::scene_file::{Setting, Template};

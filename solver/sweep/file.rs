@@ -1,7 +1,9 @@
 //! Sweep files: a base scene, axes over its keys, and what is asked of each run.
 
+use super::axes::{Axis, Combine};
 use super::distributed::{KINDS, Placed, distribution, sample, sampling};
-use super::points::{Ask, Axis, Combine, Sweep};
+use super::outcome::Ask;
+use super::points::Sweep;
 use crate::scene_file::edit::exclude_each_other;
 use crate::scene_file::fault::Fault;
 use crate::scene_file::reader::Reader;

@@ -2,9 +2,8 @@
 //!
 //! Outcomes are not monotonic: a column that overturns with 1 % more may stand with 2 % more, and what lies between two changes tried is not known.
 
-use super::cancellation;
 use super::companions::with_scaled_motion;
-use super::verdict::{Verdict, verdict_alone};
+use super::verdict::{Verdict, cancellation, verdict_alone};
 use crate::response::Response;
 use crate::run::SolveError;
 use crate::scene::Scene;

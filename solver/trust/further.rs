@@ -1,8 +1,7 @@
 //! Further companions, where nine are too few: they share a verdict that is certain only after the angles have parted, and one change in ten may make another.
 
-use super::cancellation;
 use super::companions::{Change, LARGEST_CHANGE};
-use super::verdict::{Verdict, verdict_alone};
+use super::verdict::{Verdict, cancellation, verdict_alone};
 use crate::response::Response;
 use crate::run::SolveError;
 use crate::scene::Scene;

@@ -1,6 +1,7 @@
 //! The verdict of a run, as far as one asks whether the column stands.
 
 use crate::response::{Response, StopReason};
+use crate::run::SolveError;
 use crate::scene::{Scene, Wanted};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -51,6 +52,11 @@ impl Verdict {
             Verdict::Undetermined => "ends undetermined",
         }
     }
+}
+
+/// The error of a run that the caller ended; `None` for any other failure, whose companion agrees with nothing.
+pub(super) fn cancellation(run: &Result<Response, SolveError>) -> Option<SolveError> {
+    run.as_ref().err().filter(|error| matches!(error, SolveError::Cancelled { .. })).cloned()
 }
 
 /// The scene for a run of which nothing but the verdict is read.

@@ -229,9 +229,9 @@ fn columns(ida: &Ida) -> Vec<Column> {
 
 /// The cells that say which run of a study it is: its number, record, scale and level.
 fn point(ida: &Ida, index: usize) -> Vec<String> {
-    let (record, level, scale) = ida.point(index);
-    let name = printable(&ida.records()[record].name).into_owned();
-    vec![index.to_string(), name, format!("{scale:?}"), format!("{level:?}")]
+    let point = ida.point(index);
+    let name = printable(&ida.records()[point.record].name).into_owned();
+    vec![index.to_string(), name, format!("{:?}", point.scale), format!("{:?}", point.level)]
 }
 
 /// Whether a row may be that of a run of a study.

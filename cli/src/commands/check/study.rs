@@ -34,7 +34,7 @@ struct StudiedRecord {
 pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
     let IdaFile { ida, states, .. } = IdaFile::from_file(path).map_err(Failure::scene)?;
     let record = |(number, record): (usize, &StudyRecord)| {
-        let scales = (0..ida.levels().len()).map(|level| ida.scale(number * ida.levels().len() + level));
+        let scales = (0..ida.levels().len()).map(|level| ida.point(number * ida.levels().len() + level).scale);
         let around = scales.fold([f64::INFINITY, 0.0_f64], |[low, high], scale| [low.min(scale), high.max(scale)]);
         StudiedRecord { name: record.name.clone(), has_vertical: record.vertical.is_some(), scales: around }
     };
