@@ -24,13 +24,23 @@ impl Direction {
             let (code, location) = first.split_at_checked(CODE).unwrap_or((first, ""));
             let is_location = location.bytes().all(|b| b.is_ascii_digit());
             let is_code = is_channel_code(code) && code.ends_with(['Z', '3']) && is_location;
-            is_code
-                || VERTICAL.contains(&first.trim_end_matches(['1', '2']))
-                || first == "U-D"
-                || first.starts_with("VERT")
+            is_code || VERTICAL.contains(&first.trim_end_matches(['1', '2'])) || has_vertical_word(&name)
         };
         if is_vertical(ending) || is_vertical(component) { Direction::Vertical } else { Direction::Horizontal }
     }
+}
+
+/// Whether a word of a name in capitals says that a component is vertical: `ACC UD`, `U-D`, `UP-DOWN`, `CH3-UD`, `ACC_Z`, `AZ`, `VERTICAL`.
+fn has_vertical_word(name: &str) -> bool {
+    let is_end = |c: char| !c.is_ascii_alphanumeric();
+    let mut words = name.replace("U-D", "UD").replace("D-U", "UD");
+    words.retain(|c| c != '"');
+    let is_vertical = |word: &str| {
+        let of_acceleration =
+            ["ACCELERATION", "ACCEL", "ACC", "A"].iter().any(|start| word.strip_prefix(start) == Some("Z"));
+        WORDS_FOR_VERTICAL.contains(&word) || word.starts_with("VERT") || of_acceleration
+    };
+    words.split(is_end).any(is_vertical)
 }
 
 /// Whether the ending of a file's name, or the component that the file states, says that positive values point down.
@@ -45,7 +55,9 @@ pub(crate) fn points_down(ending: &str, component: &str) -> bool {
 /// Names of a component downwards.
 const DOWN: [&str; 3] = ["DWN", "DOWN", "DN"];
 /// Endings of file names that name a vertical component.
-const VERTICAL: [&str; 10] = ["UP", "DWN", "DOWN", "VERT", "VER", "UD", "DN", "U", "V", "Z"];
+const VERTICAL: [&str; 13] = ["UP", "DWN", "DOWN", "VERTICAL", "VERT", "VER", "VRT", "VT", "UD", "DN", "U", "V", "Z"];
+/// Words that name a vertical component wherever they stand in the name of a column.
+const WORDS_FOR_VERTICAL: [&str; 10] = ["UP", "DWN", "DOWN", "VER", "VT", "VRT", "UD", "DU", "V", "Z"];
 /// Endings of file names that name a horizontal component.
 const HORIZONTAL: [&str; 10] = ["NS", "EW", "N", "E", "H1", "H2", "L", "T", "X", "Y"];
 
@@ -120,7 +132,7 @@ fn component_of_stem(stem: &str) -> (&str, &str) {
         let is_long = ending.len() > 2 || ending == "UP";
         let sure = parted(start)
             || (of_peer && is_long)
-            || ending == "DWN"
+            || ["DWN", "VRT"].contains(&ending)
             || upper[..start].ends_with(|c: char| c.is_ascii_digit());
         (sure && start > 0 && stem.is_char_boundary(start)).then(|| (common(start), &stem[start..]))
     });
@@ -166,6 +178,8 @@ mod tests {
             ("C12DWN.AT2", "C12", "DWN", true),
             ("20101114_2309_RawAcc_U.asc", "20101114_2309_RawAcc", "U", true),
             ("GM_1.csv", "GM_1", "", false),
+            ("Elcentro_vertical.txt", "Elcentro", "vertical", true),
+            ("ABCVRT.AT2", "ABC", "VRT", true),
             ("GM_1V.csv", "GM_1", "V", true),
             ("GM_2.csv", "GM_2", "", false),
         ] {
@@ -179,6 +193,25 @@ mod tests {
         assert_eq!(Direction::of("", "Up"), Direction::Vertical);
         assert_eq!(Direction::of("", "U-D surface (6)"), Direction::Vertical);
         assert_eq!(Direction::of("", "BHZ00"), Direction::Vertical);
+        for name in [
+            "Acc UD",
+            "acc_UD",
+            "AccZ",
+            "Az",
+            "a_z",
+            "Z-axis",
+            "Acc_V",
+            "UP-DOWN",
+            "DU",
+            "CH3-UD",
+            "Acc. vertical",
+            "accel_vertical",
+        ] {
+            assert_eq!(Direction::of("", name), Direction::Vertical, "{name}");
+        }
+        for name in ["90 Deg", "N00E", "E-W", "Acc NS", "ax", "Chan 1: 360", "Santa Ana", "accx"] {
+            assert_eq!(Direction::of("", name), Direction::Horizontal, "{name}");
+        }
         assert_eq!(Direction::of("", "90 Deg"), Direction::Horizontal);
         assert_eq!(Direction::of("", "BH100"), Direction::Horizontal);
         assert!(points_down("DWN", "") && points_down("", "Down (3)") && !points_down("UP", "U-D"));

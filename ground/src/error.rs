@@ -148,7 +148,7 @@ fn microseconds(seconds: &f64) -> f64 {
 }
 
 /// What to do with a record that has no columns: its samples fill row after row.
-const WRAPPED: &str = "; if samples fill row after row, give `column` as all";
+const WRAPPED: &str = "; if samples of one component fill row after row, give `column` as all";
 
 /// What to do with lines before the numbers, which begin in the line `first_row`, if that is known.
 fn header_end(first_row: Option<usize>) -> String {

@@ -49,7 +49,8 @@ impl AccelerationUnit {
     /// ```
     pub fn parse(name: &str) -> Option<AccelerationUnit> {
         let name = name.trim().to_lowercase().replace([' ', '*', '^', '·', '.', '(', ')'], "");
-        let name = name.replace("sec", "s").replace('²', "2").replace("s-2", "/s2").replace("//", "/");
+        let name = name.replace("seconds", "s").replace("second", "s").replace("secs", "s").replace("sec", "s");
+        let name = name.replace('²', "2").replace('⁻', "-").replace("s-2", "/s2").replace("//", "/");
         let length = match name.as_str() {
             "g" | "g's" | "gs" => return Some(AccelerationUnit::G),
             "mg" | "millig" | "milli-g" => return Some(AccelerationUnit::MilliG),
@@ -61,8 +62,10 @@ impl AccelerationUnit {
                 .or_else(|| other.strip_suffix("/ss"))?,
         };
         match length {
-            "m" => Some(AccelerationUnit::MetrePerSecondSquared),
-            "cm" => Some(AccelerationUnit::CentimetrePerSecondSquared),
+            "m" | "meter" | "meters" | "metre" | "metres" => Some(AccelerationUnit::MetrePerSecondSquared),
+            "cm" | "centimeter" | "centimeters" | "centimetre" | "centimetres" => {
+                Some(AccelerationUnit::CentimetrePerSecondSquared)
+            }
             "mm" => Some(AccelerationUnit::MillimetrePerSecondSquared),
             "in" | "inch" => Some(AccelerationUnit::InchPerSecondSquared),
             "ft" | "feet" => Some(AccelerationUnit::FootPerSecondSquared),

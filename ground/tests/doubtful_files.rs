@@ -146,6 +146,11 @@ fn times_have_units_and_numbers_of_rows_are_none() {
     let warned = read(&whole, &in_g());
     assert!(warned.dt == 1.0 && warned.warnings[0].contains("1 s is hardly one"), "{warned:?}");
     assert!(agrees(&read(&whole, &TextOptions { dt: Some(0.01), ..in_g() }), G, 0.01));
+    for factor in [" / 10", " X 1000", "/10", " * 100"] {
+        let text = format!("A\nB\nACCELERATION IN UNITS OF G{factor}\nNPTS= 20, DT= .01");
+        let error = refused(&table(&text, value), &options());
+        assert!(error.starts_with("line 3: ") && error.contains("unit"), "{factor}: {error}");
+    }
     let at2 = read(&table("A\nB\nACCELERATION IN UNITS OF G\nNPTS= 20, DT= 1.", value), &options());
     assert!(at2.warnings[0].contains("1 s is hardly one"), "{at2:?}");
 }
@@ -231,6 +236,100 @@ fn wrapped(columns: usize) -> String {
     samples().chunks(columns).map(row).collect()
 }
 
+/// A row of times, and one of samples.
+fn transposed() -> String {
+    let row = |value: &dyn Fn(usize) -> f64| (0..20).map(|k| format!(" {:.4}", value(k))).collect::<String>() + "\n";
+    row(&|k| 0.01 * k as f64) + &row(&|k| samples()[k])
+}
+
+/// Times and samples in turns, all in one row.
+fn pairs() -> String {
+    (0..20).map(|k| format!(" {:.2} {:.4}", 0.01 * k as f64, samples()[k])).collect::<String>() + "\n"
+}
+
+/// Components side by side have no names above them: they are read, with a warning.
+#[test]
+fn rows_of_two_or_three_samples_have_a_warning() {
+    let all = TextOptions { column: Some("all".into()), dt: Some(0.01), ..in_g() };
+    let file = read(&wrapped(3), &all);
+    assert!(
+        file.warnings[0].starts_with("the 3 numbers of each row are read as samples one after another"),
+        "{file:?}"
+    );
+    assert_eq!(read(&wrapped(4), &all).warnings, [""; 0]);
+}
+
+#[test]
+fn numbers_above_the_samples_and_parts_of_a_file_do_not_pass_unseen() {
+    let plain = TextOptions { dt: Some(0.01), ..in_g() };
+    let rows: String = samples().iter().map(|sample| format!("{sample}\n")).collect();
+    for (head, part) in [
+        ("100\n20\n", "line 2: 20 is the number of the rows below it"),
+        ("21\n", "line 1: 21 is the number of the rows below it"),
+    ] {
+        let error = refused(&format!("{head}{rows}"), &plain);
+        assert!(error.starts_with(part), "{error}");
+    }
+    let many = |head: &str| format!("{head}\n{}", rows.repeat(5));
+    for between in ["", "# E-W"] {
+        let file = read(&format!("{}{}", many("# N-S"), many(between)), &plain);
+        let expected =
+            "the numbers are in 2 parts, the second of which begins in line 103; they are read as one record";
+        assert!(
+            file.accel.len() == 200 && file.warnings.iter().any(|warning| warning == expected),
+            "{:?}",
+            file.warnings
+        );
+    }
+    let whole = read(&many("# acceleration"), &plain).warnings;
+    assert!(!whole.iter().any(|warning| warning.contains("parts") || warning.contains("quantity")), "{whole:?}");
+    let velocity = read(&many("% VELOCITY TIME HISTORY"), &plain).warnings;
+    assert!(velocity[0].starts_with("line 1 names another quantity than an acceleration"), "{velocity:?}");
+}
+
+/// The interval is right, and the file does not say another one.
+#[test]
+fn a_gap_is_named_where_the_interval_is_given() {
+    let text: String = (0..300).filter(|k| !(100..150).contains(k)).map(|k| seconds(k, 0.1) + "\n").collect();
+    let given = TextOptions { dt: Some(0.01), ..in_g() };
+    for options in [&given, &in_g()] {
+        let error = refused(&text, options);
+        assert!(error.starts_with("line 101: ") && error.contains("1.5"), "{error}");
+    }
+}
+
+/// Times from Excel with signs of thousands, a title with a number above names, factors of units, and spectra.
+#[test]
+fn tables_that_spreadsheets_and_reports_hold() {
+    for rows in ["990\t\"-998\"\n995\t\"-1,013\"\n", "990;-998\n995;1,013\n", "990;-998\n995;1.013\n"] {
+        let error = refused(
+            &format!("Time (ms);Acc (mm/s2)\n{rows}").replacen(';', if rows.contains('\t') { "\t" } else { ";" }, 1),
+            &options(),
+        );
+        assert!(
+            error.contains("1.013 or ") && error.contains("1013; write the numbers without signs of thousands"),
+            "{error}"
+        );
+    }
+    let titled = table("Kobe, January 16, 1995\nTime [s] Accel [g]", |k, a| seconds(k, a).replace(',', " "));
+    assert!(agrees(&read(&titled, &options()), G, 0.01));
+    for unit in ["% of g", "10^-2 m/s2", "g / 10", "m/s2 x 100"] {
+        let error = refused(&table(&format!("# acceleration in {unit}\ntime (s),a"), seconds), &options());
+        assert!(error.contains("unit"), "{unit}: {error}");
+    }
+    for name in ["Acc [g]*10", "Acc x10 (m/s2)", "100*Acc (m/s2)"] {
+        let error = refused(&table(&format!("time (s),{name}"), seconds), &options());
+        assert!(error.contains("is no unit of acceleration"), "{name}: {error}");
+    }
+    for names in ["T (s),Se (g)", "T [s],Spettro [g]", "f (Hz),Acc (m/s2)"] {
+        let error = refused(&table(names, seconds), &options());
+        assert!(error.contains("is one of a spectrum"), "{names}: {error}");
+    }
+    for name in ["Acceleration (E-W) (g)", "a(t) [g]", "a/g"] {
+        assert!(agrees(&read(&table(&format!("t/s,{name}"), seconds), &options()), G, 0.01), "{name}");
+    }
+}
+
 #[test]
 fn samples_that_fill_row_after_row_are_read_as_all_columns() {
     let all = TextOptions { column: Some("all".into()), dt: Some(0.01), ..in_g() };
@@ -271,6 +370,12 @@ fn samples_that_fill_row_after_row_are_read_as_all_columns() {
         ),
         (table("", seconds), "line 2: the numbers of column 1 never fall: they are times and no samples"),
         (table("acc (g), vel (m/s)", |_, a| format!("{a},{a}")), "line 1: column `vel` is no acceleration"),
+        (
+            table("N-S E-W U-D", |_, a| format!("{a} {a} {a}")),
+            "line 1: each of the 3 columns has a name (N-S, E-W, U-D)",
+        ),
+        (transposed(), "line 1: the numbers of the first row rise in equal steps: they are times and no samples"),
+        (pairs(), "line 1: every second number of the first row rise in equal steps"),
     ] {
         let error = refused(&text, &all);
         assert!(error.starts_with(part), "{error}");

@@ -170,6 +170,10 @@ fn one_of_several_channels_is_chosen_by_number() {
     let renumbered = text("csmip/three-channels.V2").replace("CHAN  1:", "CHAN  7:").replace("CHAN  3:", "CHAN  1:");
     let chosen = RecordFile::read(renumbered.as_bytes(), &channel(1)).expect("channel 1 is the last now");
     assert_eq!(chosen.component, "360 DEG");
+    // A number that no channel has is no place.
+    let renumbered = renumbered.replace("CHAN  1:", "CHAN  9:");
+    let error = refused(renumbered.as_bytes(), &channel(1)).to_string();
+    assert!(error.starts_with("channel 1 is not in the file; it has 7: 90 DEG"), "{error}");
     let error = refused(&bytes("peer/nrc-processed.AT2"), &channel(2));
     assert!(matches!(error, RecordError::NoChannel { channel: 2, .. }), "{error}");
 }
@@ -243,6 +247,38 @@ fn decimal_commas_of_dyna_are_named() {
     let commas: Vec<String> = text.lines().enumerate().map(row).collect();
     let error = refused(commas.join("\n").as_bytes(), &options());
     assert!(matches!(error, RecordError::DecimalComma { line, .. } if line == samples + 1), "{error}");
+}
+
+/// Without unit and quantity the peak that the header states says that the samples are velocities.
+#[test]
+fn velocities_of_dyna_are_refused_by_their_peak() {
+    let text = text("dyna/XX.MIB..HNE.D.64.ASC");
+    let without = |line: &&str| !["UNITS", "DATA_TYPE"].iter().any(|key| line.starts_with(key));
+    let lines: Vec<String> = text.lines().filter(without).map(|line| line.replace("PGA_CM/S^2", "PGV_CM/S")).collect();
+    let error = refused(lines.join("\n").as_bytes(), &options()).to_string();
+    assert!(error.contains("this is no acceleration: `PGV_CM/S"), "{error}");
+}
+
+/// Spreadsheets part the names of a K-NET header from the values; KiK-net has instruments in boreholes.
+#[test]
+fn headers_of_knet_may_be_cells_and_boreholes_have_a_warning() {
+    let name = "knet/XXX0010103040506.EW";
+    let plain = read(name, &options());
+    for delimiter in [",", ";"] {
+        let cells = |(place, line): (usize, &str)| match line.split_at_checked(18) {
+            Some((name, value)) if place < 17 => format!("{}{delimiter}{value}", name.trim_end()),
+            _ => line.to_string(),
+        };
+        let cells: Vec<String> = text(name).lines().enumerate().map(cells).collect();
+        let file = RecordFile::read(cells.join("\n").as_bytes(), &options()).expect("a K-NET file");
+        assert_eq!((&file.accel, file.dt, &file.component), (&plain.accel, plain.dt, &plain.component));
+    }
+    let below = text(name).replace("E-W", "2");
+    let file = RecordFile::read(below.as_bytes(), &options()).expect("a KiK-net file");
+    assert!(file.warnings.iter().any(|warning| warning.contains("in a borehole")), "{:?}", file.warnings);
+    // A table may begin with the time of the earthquake.
+    let table = "Origin Time,2001/03/04 05:06:07\nTime (s),Acc (g)\n0,0.1\n0.01,0.2\n0.02,0.1\n";
+    assert_eq!(RecordFile::read(table.as_bytes(), &options()).expect("a table").accel.len(), 3);
 }
 
 #[test]

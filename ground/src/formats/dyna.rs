@@ -97,7 +97,13 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let declared = Some(entry.count(count)?);
     let remedy = "use the acceleration file (.ACC), in cm/s^2, of the same record";
     let unit = match header.find("UNITS").or_else(|| header.find("UNIT")) {
-        None => options.units.unwrap_or(AccelerationUnit::CentimetrePerSecondSquared),
+        // The peak that the header states says what the samples are.
+        None => match header.entries.iter().find(|(_, key, _)| key.starts_with("PGV_") || key.starts_with("PGD_")) {
+            Some((line, ..)) => {
+                return Err(Entry { line: *line, text: lines[*line - 1], remedy }.quoted("this is no acceleration:"));
+            }
+            None => options.units.unwrap_or(AccelerationUnit::CentimetrePerSecondSquared),
+        },
         Some((line, text)) => Entry { line, text, remedy }.unit(text, options)?,
     };
     let (span, header_entry) = ((header.end, lines.len()), (entry.line, "NDATA"));

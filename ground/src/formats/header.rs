@@ -148,8 +148,8 @@ pub fn seconds_of(date: &str) -> Option<f64> {
 /// Number, where the file gives one, and direction of a channel.
 pub type ChannelName = (Option<usize>, String);
 
-/// The place of the requested channel, from 0, and the labels of all channels. The request is a number that the file gives to a channel, or
-/// else the place of a channel, from 1. Without a request it is the first channel, with a warning if there are several.
+/// The place of the requested channel, from 0, and the labels of all channels. The request is a number that the file gives to a channel or, in a
+/// file without numbers, the place of a channel, from 1. Without a request it is the first channel, with a warning if there are several.
 pub fn choose(
     channels: &[ChannelName],
     options: &TextOptions,
@@ -173,7 +173,11 @@ pub fn choose(
         Some(channel) => channels
             .iter()
             .position(|(number, _)| *number == Some(channel))
-            .or_else(|| channel.checked_sub(1).filter(|place| *place < labels.len()))
+            // Places count where the file gives no numbers.
+            .or_else(|| {
+                let has_numbers = channels.iter().any(|(number, _)| number.is_some());
+                channel.checked_sub(1).filter(|place| !has_numbers && *place < labels.len())
+            })
             .ok_or_else(|| RecordError::NoChannel { channel, known: listed(&labels) })?,
     };
     Ok((chosen, labels))

@@ -3,6 +3,7 @@
 //! A unit stands in brackets (`a [m/s2]`), at the end of a name (`time_ms`, `Acc in g`), or in a row of units below the names. A name that
 //! says no quantity (`h1`, `NS`, `n`) may be anything: only its unit tells.
 
+use super::statement::is_multiplied;
 use crate::unit::AccelerationUnit;
 
 /// What a column holds.
@@ -17,10 +18,14 @@ pub enum Quantity {
 }
 
 /// Beginnings of words that only spectra have.
-const SPECTRAL: [&str; 11] =
-    ["period", "périod", "períod", "frequ", "fréqu", "frecu", "spectr", "spektr", "espectr", "pseudo", "fourier"];
-/// Words that only spectra have: frequencies and ordinates.
-const ORDINATES: [&str; 7] = ["freq", "sa", "sv", "sd", "psa", "psv", "psd"];
+const SPECTRAL: [&str; 12] = [
+    "period", "périod", "períod", "frequ", "fréqu", "frecu", "spectr", "spektr", "espectr", "spettr", "pseudo",
+    "fourier",
+];
+/// Words that only spectra have: frequencies, natural periods and ordinates.
+const ORDINATES: [&str; 12] = ["freq", "tn", "sa", "sv", "sd", "psa", "psv", "psd", "se", "sae", "sve", "sde"];
+/// Unit of frequencies.
+const HERTZ: &str = "hz";
 /// Words that make a time a number of rows, or a point in time of the clock: `Time step`, `Time index`.
 const COUNTS: [&str; 8] = ["index", "step", "stamp", "sample", "no", "nr", "number", "count"];
 /// Words for time.
@@ -83,15 +88,21 @@ pub struct Heading {
 impl Heading {
     pub fn parse(text: &str) -> Heading {
         let text = text.trim().trim_matches(['"', '\'']).trim();
-        let (name, unit) = match text.find(['[', '(']) {
-            Some(open) => (&text[..open], bare(&text[open..])),
-            None => unit_at_end(text).unwrap_or((text, "")),
-        };
-        Heading { name: name.trim().trim_end_matches([',', '_']).to_string(), unit: unit.to_string() }
+        let (name, unit, rest) = unit_in_brackets(text)
+            .unwrap_or_else(|| unit_at_end(text).map_or((text, "", ""), |(name, unit)| (name, unit, "")));
+        let name = format!("{} {}", name.trim().trim_end_matches([',', '_', '/']), rest.trim());
+        // A unit with a factor is none that is known: `Acc [g]*10`.
+        let factor =
+            name.split_whitespace().find(|word| word.contains(['*', '×']) || is_multiplied(&word.to_lowercase()));
+        let unit = factor.map_or(unit.to_string(), |factor| format!("{factor} {unit}").trim_end().to_string());
+        Heading { name: name.trim().to_string(), unit }
     }
 
     /// The quantity of the column: by its name, else by its unit.
     pub fn quantity(&self) -> Option<Quantity> {
+        if self.unit.eq_ignore_ascii_case(HERTZ) {
+            return Some(Quantity::Spectrum);
+        }
         let by_time = || self.second().map(|_| Quantity::Time);
         let by_acceleration = || self.acceleration().map(|_| Quantity::Acceleration);
         Quantity::of(&self.name).or_else(by_time).or_else(by_acceleration)
@@ -117,16 +128,32 @@ fn bare(text: &str) -> &str {
     text.trim().trim_start_matches(['[', '(']).split([']', ')']).next().unwrap_or("").trim()
 }
 
-/// `time_ms`, `Acc in g`: name and last word, where that word is a unit of the quantity that the name says. `a_g` is no such name, but the
+/// The text before the brackets of the unit, the unit, and the text after them: of several brackets the last ones with a known unit, else the first ones.
+/// `Acceleration (E-W) (cm/s²)`, `a(t) [m/s2]`.
+fn unit_in_brackets(text: &str) -> Option<(&str, &str, &str)> {
+    let at = |open: usize| {
+        let close = text[open..].find([']', ')']).map_or(text.len(), |length| open + length + 1);
+        // The unit may have brackets of its own: `[cm/(s*s)]`.
+        (&text[..open], bare(&text[open..]), text[close..].trim_start_matches([']', ')']))
+    };
+    let is_known = |unit: &str| second(unit).is_some() || AccelerationUnit::parse(unit).is_some();
+    let mut opens = text.match_indices(['[', '(']).map(|(open, _)| open);
+    let known = opens.clone().rev().find(|open| is_known(at(*open).1));
+    known.or_else(|| opens.next()).map(at)
+}
+
+/// `time_ms`, `Acc in g`, `Zeit/ms`: name and last word, where that word is a unit of the quantity that the name says. `a_g` is no such name, but the
 /// usual symbol of the acceleration of the ground.
 fn unit_at_end(text: &str) -> Option<(&str, &str)> {
-    let (name, unit) = text.rsplit_once([' ', '_', ','])?;
-    let fits = match Quantity::of(name.trim_end_matches(" in"))? {
-        Quantity::Time => second(unit).is_some(),
-        Quantity::Acceleration => name.len() > 2 && AccelerationUnit::parse(unit).is_some(),
-        Quantity::Spectrum | Quantity::Other => false,
+    let fits = |(name, unit): &(&str, &str)| match Quantity::of(name) {
+        Some(Quantity::Time) => second(unit).is_some(),
+        Some(Quantity::Acceleration) => AccelerationUnit::parse(unit).is_some(),
+        _ => false,
     };
-    fits.then_some((name.trim_end_matches(" in"), unit))
+    let word = text.rsplit_once([' ', '_', ',']).map(|(name, unit)| (name.trim_end_matches(" in"), unit));
+    let word = word.filter(|(name, _)| name.len() > 2 || Quantity::of(name) == Some(Quantity::Time));
+    let parted = |sign: char| text.split_once(sign);
+    [word, parted('/'), parted('.')].into_iter().flatten().find(fits)
 }
 
 /// Units of columns beside times and accelerations.
@@ -225,6 +252,19 @@ mod tests {
             ("Spectral acceleration (g)", Some(Spectrum), "g"),
             ("PSa (m/s2)", Some(Spectrum), "m/s2"),
             ("Acc (%g)", Some(Acceleration), "%g"),
+            ("Acceleration (E-W) (cm/s²)", Some(Acceleration), "cm/s²"),
+            ("a(t) [m/s2]", Some(Acceleration), "m/s2"),
+            ("Zeit/ms", Some(Time), "ms"),
+            ("t/s", Some(Time), "s"),
+            ("a/g", Some(Acceleration), "g"),
+            ("Beschl./(m/s²)", Some(Acceleration), "m/s²"),
+            ("Time.ms", Some(Time), "ms"),
+            ("acc_m/s2", Some(Acceleration), "m/s2"),
+            ("Acc [g]*10", Some(Acceleration), "*10 g"),
+            ("Acc x10 (m/s2)", Some(Acceleration), "x10 m/s2"),
+            ("100*Acc (m/s2)", Some(Acceleration), "100*Acc m/s2"),
+            ("f (Hz)", Some(Spectrum), "Hz"),
+            ("Se (g)", Some(Spectrum), "g"),
         ] {
             let heading = Heading::parse(text);
             assert_eq!((heading.quantity(), heading.unit.as_str()), (quantity, unit), "{text}");

@@ -51,9 +51,11 @@ const PEAK: Place = (15, &["max. acc.", "max acc."]);
 /// Whether these are the lines of a K-NET file.
 pub fn is_one(lines: &[&str]) -> bool {
     let first = lines.iter().find(|line| !line.trim().is_empty());
-    let begins = first.is_some_and(|line| has_name(line, ORIGIN));
     let head = &lines[..lines.len().min(2 * HEADER_LINES)];
-    begins || (head.iter().any(|line| has_name(line, SCALE)) && head.iter().any(|line| has_name(line, FREQUENCY)))
+    let has = |entry: Place| head.iter().any(|line| has_name(line, entry));
+    let begins = first.is_some_and(|line| has_name(line, ORIGIN));
+    // Other programs begin a table with the time of the earthquake as well.
+    begins && [FREQUENCY, SCALE, STATION].into_iter().any(has) || has(SCALE) && has(FREQUENCY)
 }
 
 fn has_name(line: &str, (_, names): Place) -> bool {
@@ -91,7 +93,7 @@ impl<'t> Header<'t> {
         let named = (self.first..end).find(|index| has_name(self.lines[*index], place));
         let index = named.unwrap_or(self.first + place.0 - 1);
         let line = self.lines.get(index)?;
-        let value = match line.split_once('\t') {
+        let value = match line.split_once(['\t', ',', ';']) {
             Some((_, value)) => value,
             None => by_column(line).or_else(|| by_name(line, place)).unwrap_or(""),
         };
@@ -156,6 +158,11 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     });
     file.compare_peak(peak, PEAK_BOUNDS, options.lenient)?;
     let component = header.find(DIRECTION).map(|(_, value)| direction(value)).unwrap_or_default();
+    if component.contains(BOREHOLE) {
+        file.warnings.push(
+            "the instrument is in a borehole, not at the surface, whose files end in 2 (.EW2, .NS2, .UD2)".into(),
+        );
+    }
     let first_sample = header.find(FIRST_SAMPLE).and_then(|(_, date)| seconds_of(date));
     Ok(RecordFile { title: header.text(ORIGIN), station: header.text(STATION), component, first_sample, ..file })
 }
@@ -170,6 +177,9 @@ fn factor(text: &str) -> Option<(AccelerationUnit, f64)> {
     let scale = number(full)? / leading_number(counts)?;
     (scale.is_finite() && scale > 0.0).then_some((unit, scale))
 }
+
+/// Instruments below the surface, in names of components.
+const BOREHOLE: &str = "borehole";
 
 /// KiK-net numbers its six instruments: three in the borehole, three at the surface.
 fn direction(text: &str) -> String {

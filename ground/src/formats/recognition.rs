@@ -149,10 +149,11 @@ fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, RecordError> {
 
 /// The lines of a text that ends them with LF, CRLF, or CR alone.
 fn lines(text: &str) -> Vec<&str> {
-    let end = if text.contains('\n') { '\n' } else { '\r' };
+    let count = text.bytes().filter(|byte| b"\r\n".contains(byte)).count();
     // The slices of short lines take more memory than their text: no more are reserved than needed.
-    let mut lines = Vec::with_capacity(text.matches(end).count() + 1);
-    lines.extend(text.strip_suffix('\n').unwrap_or(text).split(end).map(|line| line.trim_end_matches('\r')));
+    let mut lines = Vec::with_capacity(count + 1);
+    let text = text.strip_suffix(['\n', '\r']).unwrap_or(text);
+    lines.extend(text.split('\n').flat_map(|line| line.trim_end_matches('\r').split('\r')));
     lines
 }
 
@@ -172,5 +173,7 @@ mod tests {
         }
         assert_eq!(lines("a\r\nb\n"), ["a", "b"]);
         assert_eq!(lines("a\rb"), ["a", "b"]);
+        assert_eq!(lines("a\rb\n"), ["a", "b"]);
+        assert_eq!(lines("a\n\nb\r\n"), ["a", "", "b"]);
     }
 }

@@ -33,21 +33,51 @@ pub fn interval(line: &str) -> Option<f64> {
 }
 
 /// The units of acceleration that a line states: in brackets, after `in` or `units`, or by a name that is nothing but a unit (`cm/s2`). A unit beside
-/// a number belongs to that number: `peak 350 cm/s2`.
+/// a number or a factor belongs to that number: `peak 350 cm/s2`, `10^-2 m/s2`, `% of g`, `g / 10`. Gravity has a unit of its own.
 fn units_of(line: &str) -> Vec<AccelerationUnit> {
+    if line.to_ascii_lowercase().contains("gravity") {
+        return Vec::new();
+    }
     let is_end = |c: char| c.is_whitespace() || ",;:=\"'".contains(c);
+    // `cm / s / s` is one unit.
+    let line = line.replace(" / ", "/");
     let words: Vec<&str> = line.split(is_end).filter(|word| !word.is_empty()).collect();
     let is_number = |place: usize| words.get(place).is_some_and(|word| number(word).is_some());
+    let lower = |place: Option<usize>| {
+        place.and_then(|place| words.get(place)).map_or(String::new(), |word| word.to_lowercase())
+    };
     let stated = |place: usize| {
         let word = words[place];
         let in_brackets = word.starts_with(['[', '(']);
-        let before = place.checked_sub(1).map_or("", |place| words[place]).to_ascii_lowercase();
-        let named = in_brackets || ["in", "unit", "units", "of"].contains(&before.as_str()) || word.contains('/');
+        let [last, before] = [2, 1].map(|back| lower(place.checked_sub(back)));
+        let named = in_brackets
+            || ["in", "unit", "units"].contains(&before.as_str())
+            || before == "of" && WHOLE.contains(&last.as_str())
+            || word.contains('/');
         let of_number = is_number(place + 1) || (!in_brackets && place > 0 && is_number(place - 1));
+        let has_factor = is_factor(&lower(Some(place + 1))) || is_factor(&before) || before == "of" && is_factor(&last);
         let name = word.trim_matches(['[', '(', ']', ')', '.']);
-        AccelerationUnit::parse(name).filter(|_| named && !of_number)
+        AccelerationUnit::parse(name).filter(|_| named && !of_number && !has_factor)
     };
     (0..words.len()).filter_map(stated).collect()
+}
+
+/// Words before `of` and a unit that state it whole.
+const WHOLE: [&str; 8] = ["unit", "units", "fraction", "fractions", "term", "terms", "multiple", "multiples"];
+
+/// Whether a word is a factor of a unit: `10^-2`, `x100`, `*`, `%`, `percent`, `hundredths`.
+pub fn is_factor(word: &str) -> bool {
+    is_multiplied(word)
+        || ["*", "x", "×", "^", "/", "%"].contains(&word)
+        || ["percent", "tenths", "hundredths", "thousandths", "millionths"].iter().any(|begin| word.starts_with(begin))
+}
+
+/// Whether a word is a number with a sign of multiplication, division or a power: `x100`, `100*`, `*10`, `10^-2`, `1/100`.
+pub fn is_multiplied(word: &str) -> bool {
+    let is_sign = |c: char| "*x×^/".contains(c);
+    word.contains(is_sign)
+        && word.contains(|c: char| c.is_ascii_digit())
+        && word.chars().all(|c| is_sign(c) || c.is_ascii_digit() || "+-.".contains(c))
 }
 
 /// The units that lines state, each with the number of its line, from 1.
@@ -106,6 +136,10 @@ mod tests {
         for (text, unit) in [
             ("units m/s2", "m/s²"),
             ("Acceleration in m/s2", "m/s²"),
+            ("ACCELERATION IN CM / SEC / SEC", "cm/s²"),
+            ("in units of g", "g"),
+            ("as fractions of g", "g"),
+            ("in meters/second^2", "m/s²"),
             ("acc [m/s^2]", "m/s²"),
             ("m/s^2", "m/s²"),
             ("NPTS=1991 DT=0.01 UNITS=M/S2", "m/s²"),

@@ -7,9 +7,10 @@
 //! 0.01, 0.034
 //! ```
 //!
-//! From lines to rows of numbers: [`rows`]. From rows to the sampling interval: [`times`]. Names of columns are read in
+//! From lines to rows of numbers: [`rows`], commas in [`decimal_comma`]. From rows to the sampling interval: [`times`]. Names of columns are read in
 //! [`heading`](super::heading), remarks and titles in [`statement`].
 
+mod decimal_comma;
 mod rows;
 mod times;
 
@@ -40,21 +41,39 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     refuse_spectrum(&rows)?;
     let chosen = acceleration_column(&rows, options)?;
     refuse_other_quantity(&rows, chosen)?;
+    refuse_names_of_all(&rows)?;
     let mut warnings = Vec::new();
     let unit = unit(&rows, chosen, options, &mut warnings)?;
     let (begins, dt) = times::begin_and_interval(&rows, chosen, options, &mut warnings)?;
     warnings.extend(begins.and_then(|begins| late_start(begins, dt)));
+    warnings.extend(other_quantity_in_remarks(lines, &rows, options));
+    warnings.extend(several_parts(&rows));
     if headings.is_empty() && begins.is_none() && rows.columns >= FEWEST_OF_WRAPPED {
         let (place, columns) = (chosen + 1, rows.columns);
         warnings.push(format!(
             "number {place} of the {columns} in each row is read; if samples fill row after row, give `column` as {ALL}"
         ));
     }
+    if rows.fills_rows && (2..FEWEST_OF_WRAPPED).contains(&rows.in_first_row) {
+        let count = rows.in_first_row;
+        warnings.push(format!("the {count} numbers of each row are read as samples one after another; if they are components, choose one with `column`"));
+    }
     let values: Vec<f64> = (0..rows.lines.len()).map(|row| rows.at(row, chosen)).collect();
     let samples = Samples { values, cut: false, warnings };
     let file = RecordFile::of(Format::Table, unit, unit.in_si(options.gravity), dt, samples);
     let component = headings.get(chosen).map(|heading| tidy(&heading.name)).unwrap_or_default();
     Ok(RecordFile { title: title(lines), component, first_sample: begins, ..file })
+}
+
+/// Refuses samples that fill rows of a few columns, if each column has a name: these are components.
+fn refuse_names_of_all(rows: &Rows) -> Result<(), RecordError> {
+    let (count, columns) = (rows.headings.1.len(), rows.in_first_row);
+    if !rows.fills_rows || count != columns || !(2..FEWEST_OF_WRAPPED).contains(&columns) {
+        return Ok(());
+    }
+    let names: Vec<&str> = rows.headings.1.iter().map(|heading| heading.name.as_str()).collect();
+    let remedy = "choose one of them with `column`, or skip the lines above the samples with `skip_rows`";
+    Err(rows.entry(remedy).wrong(format!("each of the {columns} columns has a name ({})", listed(&names))))
 }
 
 /// Refuses a table of a spectrum: a column has a period, a frequency or a spectral ordinate, and no column is surely a time.
@@ -81,6 +100,38 @@ fn refuse_other_quantity(rows: &Rows, chosen: usize) -> Result<(), RecordError> 
         }
     }
 }
+
+/// Warning that remarks above the numbers name another quantity, and none names an acceleration.
+fn other_quantity_in_remarks(lines: &[&str], rows: &Rows, options: &TextOptions) -> Option<String> {
+    let header = lines.iter().enumerate().take(rows.lines[0] - 1).skip(options.skip_rows);
+    let remarks = header.filter(|(_, line)| line.trim_start().starts_with(REMARK));
+    let quantities: Vec<(usize, Quantity)> =
+        remarks.filter_map(|(index, line)| Some((index + 1, Quantity::of(line)?))).collect();
+    let is_acceleration = |(_, quantity): &(usize, Quantity)| *quantity == Quantity::Acceleration;
+    let other = quantities.iter().find(|(_, quantity)| [Quantity::Other, Quantity::Spectrum].contains(quantity));
+    let (line, _) = other.filter(|_| !quantities.iter().any(is_acceleration))?;
+    Some(format!("line {line} names another quantity than an acceleration; are the numbers accelerations?"))
+}
+
+/// Warning that blank lines or remarks part the numbers of a single column into a few parts: they may be several records.
+fn several_parts(rows: &Rows) -> Option<String> {
+    let begins: Vec<usize> = (1..rows.lines.len()).filter(|row| rows.lines[*row] > rows.lines[*row - 1] + 1).collect();
+    let ends = begins.iter().copied().chain([rows.lines.len()]);
+    let are_long = || begins.iter().zip(ends.skip(1)).all(|(begin, end)| end - begin >= LEAST_ROWS_OF_PART);
+    let is_single = rows.in_first_row == 1 && (1..=MOST_PARTS).contains(&begins.len());
+    (is_single && begins[0] >= LEAST_ROWS_OF_PART && are_long()).then(|| {
+        let (parts, line) = (begins.len() + 1, rows.lines[begins[0]]);
+        format!(
+            "the numbers are in {parts} parts, the second of which begins in line {line}; they are read as one record"
+        )
+    })
+}
+
+/// Least number of rows of a part of a file that may be a record.
+const LEAST_ROWS_OF_PART: usize = 100;
+
+/// Most places at which the numbers of several records are parted.
+const MOST_PARTS: usize = 3;
 
 /// The unit of the chosen column: that of its heading, else that of `options`, else the one that the text above the numbers states.
 fn unit(

@@ -3,10 +3,14 @@
 //! Blanks, tabs, commas and semicolons separate the columns. If others than commas do, commas may be decimal points. Text above the numbers, and a line
 //! with the sampling interval, is a header; the nearest line of text without an interval names the columns.
 
+use super::decimal_comma::{
+    are_single_commas, has_decimal_commas, has_decimal_commas_in_quotes, is_column_with_commas, refuse_single_commas,
+    refuse_thousands, without_quotes,
+};
 use crate::error::RecordError;
 use crate::formats::header::Entry;
 use crate::formats::heading::{Heading, Quantity, headings};
-use crate::formats::numbers::{Word, comma_refused, has_decimal_comma, is_text, number, refused, split, words};
+use crate::formats::numbers::{Word, is_text, number, refused, split, words};
 use crate::formats::statement::{self, HEADER_LINES, names_count};
 use crate::options::TextOptions;
 use crate::unit::AccelerationUnit;
@@ -26,6 +30,8 @@ pub struct Rows {
     pub columns: usize,
     /// Whether the samples filled row after row, so that each number is a row of one column.
     pub fills_rows: bool,
+    /// Numbers of the first row.
+    pub in_first_row: usize,
     /// Lines, from 1, and units that the text above the numbers states, the headings excepted.
     pub stated_units: Vec<(usize, AccelerationUnit)>,
     /// Lines, from 1, and sampling intervals `[s]` that the text above the numbers states.
@@ -115,7 +121,12 @@ fn first_row(body: &[(usize, &str)]) -> Result<usize, RecordError> {
         Some(_) => !names_another_quantity(text),
         None => is_text(text),
     };
-    let first = counted + body[counted..].iter().take_while(is_header).count();
+    let mut first = counted + body[counted..].iter().take_while(is_header).count();
+    // A title may have a number (`El Centro 1940`); the numbers begin below the line that names the columns.
+    if first < body.len() && split(body[first].1, body[first].0).is_err() {
+        let is_named = |pair: &[(usize, &str)]| heads(pair[0].1, pair[1].1) && split(pair[1].1, pair[1].0).is_ok();
+        first = body[first..].windows(2).take(HEADER_LINES).position(is_named).map_or(first, |place| first + place + 1);
+    }
     if first == body.len() {
         let word = words(first_text).next().expect("lines without words are left out");
         return Err(unreadable(refused(*first_line, word), body));
@@ -134,6 +145,7 @@ fn numbers(body: &[(usize, &str)], names: usize, fills_rows: bool) -> Result<Row
     if !fills_rows {
         refuse_count(body)?;
     }
+    refuse_thousands(body)?;
     // The last of rows that samples fill may have one number, and nothing that parts it from others.
     let full = if fills_rows && body.len() > 1 { &body[..body.len() - 1] } else { body };
     let decimal_comma = has_decimal_commas(full) || is_column_with_commas(body, names);
@@ -146,6 +158,7 @@ fn numbers(body: &[(usize, &str)], names: usize, fills_rows: bool) -> Result<Row
         values: Vec::new(),
         columns: 0,
         fills_rows,
+        in_first_row: 0,
         stated_units: Vec::new(),
         stated_intervals: Vec::new(),
     };
@@ -167,6 +180,7 @@ fn numbers(body: &[(usize, &str)], names: usize, fills_rows: bool) -> Result<Row
         rows.lines.extend(std::iter::repeat_n(*line, if fills_rows { row.len() } else { 1 }));
         rows.values.extend(row);
     }
+    rows.in_first_row = rows.columns;
     if fills_rows {
         refuse_times_among(&rows, body[0].0)?;
         rows.columns = 1;
@@ -179,26 +193,6 @@ fn uneven_row(line: usize, found: usize, expected: usize) -> RecordError {
     let remedy =
         "only the last row may be shorter: mend this one, or skip the lines above the samples with `skip_rows`";
     Entry { line, text: "", remedy }.wrong(format!("{found} number(s) where the first row has {expected}"))
-}
-
-/// A row without the blanks and semicolons at its end.
-fn cell(row: &str) -> &str {
-    row.trim().trim_end_matches(';').trim_end()
-}
-
-/// Whether each row is one number with a decimal comma, or two whole numbers: nothing tells which.
-fn are_single_commas(body: &[(usize, &str)]) -> bool {
-    body.iter().all(|(_, row)| has_decimal_comma(cell(row)))
-}
-
-/// Refuses rows of one number with a decimal comma each, or of two whole numbers.
-fn refuse_single_commas(body: &[(usize, &str)]) -> Result<(), RecordError> {
-    if !are_single_commas(body) {
-        return Ok(());
-    }
-    let (line, row) = body[0];
-    let column = row.chars().take_while(|c| c.is_whitespace()).count() + 1;
-    Err(comma_refused(line, Word { column, text: cell(row) }))
 }
 
 /// Refuses numbers of which the first one is their number, or those of a column times, as samples that fill row after row.
@@ -214,6 +208,18 @@ fn refuse_times_among(rows: &Rows, line: usize) -> Result<(), RecordError> {
         let numbers: Vec<f64> = values.iter().copied().skip(column).step_by(*columns).collect();
         numbers.len() >= FEWEST_RISING && numbers.is_sorted() && numbers.first() < numbers.last()
     };
+    // Times of a transposed table, or of pairs in one row.
+    let in_steps = |every: usize| {
+        let numbers: Vec<f64> = values.iter().take(*columns).step_by(every).copied().collect();
+        let step = numbers.get(1).map_or(0.0, |second| second - numbers[0]);
+        let is_step = |pair: &[f64]| (pair[1] - pair[0] - step).abs() <= STEP_TOLERANCE * step;
+        numbers.len() >= FEWEST_RISING && step > 0.0 && numbers.windows(2).all(is_step)
+    };
+    if in_steps(1) || in_steps(2) {
+        let which = if in_steps(1) { "the numbers" } else { "every second number" };
+        let problem = format!("{which} of the first row rise in equal steps: they are times and no samples");
+        return Err(entry("write one time and one sample per line").wrong(problem));
+    }
     let rising: Vec<usize> = (0..*columns).filter(|column| never_falls(*column)).collect();
     if !rising.is_empty() && rising.len() < *columns {
         let problem = format!("the numbers of column {} never fall: they are times and no samples", rising[0] + 1);
@@ -222,6 +228,9 @@ fn refuse_times_among(rows: &Rows, line: usize) -> Result<(), RecordError> {
     }
     Ok(())
 }
+
+/// Relative difference of equal steps of times, which have few digits.
+const STEP_TOLERANCE: f64 = 1e-3;
 
 /// Fewest rows in which a column that never falls is one of times: eight random numbers are in ascending order in one of 40,000 cases.
 const FEWEST_RISING: usize = 8;
@@ -263,18 +272,26 @@ pub fn heads(line: &str, row: &str) -> bool {
 /// Fewest numbers below a count: a shorter table may begin with any number.
 const FEWEST_COUNTED: usize = 10;
 
-/// Refuses a table whose first number is the number of the rows below it, or of those below the next row, which may have the interval.
+/// Refuses a table whose first number is the number of the rows below it, of those below the next row, which may have the interval, or one more than
+/// there are; or whose second row is the number of the rows below it alone, as below a sampling rate.
 fn refuse_count(body: &[(usize, &str)]) -> Result<(), RecordError> {
-    let (line, text) = body[0];
-    let below = (body.len() - 1) as f64;
-    let first = words(text).next().and_then(|word| number(word.text));
-    match first {
-        Some(count) if body.len() > FEWEST_COUNTED && [below, below - 1.0].contains(&count) => {
-            let remedy = "skip the lines above the samples with `skip_rows`, and give `dt` if the file has no times";
-            Err(Entry { line, text, remedy }.wrong(format!("{count} is the number of the rows below it, no sample")))
-        }
-        _ => Ok(()),
+    if body.len() <= FEWEST_COUNTED {
+        return Ok(());
     }
+    let first_of = |row: usize| words(body[row].1).next().and_then(|word| number(word.text));
+    let below = (body.len() - 1) as f64;
+    let is_alone = words(body[1].1).count() == 1;
+    let counts = [(0, &[below, below - 1.0, below + 1.0][..]), (1, &[below - 1.0][..])];
+    for (row, due) in counts.into_iter().filter(|(row, _)| *row == 0 || is_alone) {
+        let (line, text) = body[row];
+        if let Some(count) = first_of(row).filter(|count| due.contains(count)) {
+            let remedy = "skip the lines above the samples with `skip_rows`, and give `dt` if the file has no times";
+            return Err(
+                Entry { line, text, remedy }.wrong(format!("{count} is the number of the rows below it, no sample"))
+            );
+        }
+    }
+    Ok(())
 }
 
 /// The error for a first line that is neither numbers nor names: the file may be of no known format, or have a header whose end this error names.
@@ -300,68 +317,6 @@ fn first_of_last_rows(body: &[(usize, &str)]) -> Option<usize> {
     let is_of_another = |(_, text): &(usize, &str)| names_another_quantity(text);
     (!above.iter().any(|line| may_be_a_row(line) || is_of_another(line)) && !has_decimal_commas(rows))
         .then_some(rows.first()?.0)
-}
-
-/// A row without the quotes that spreadsheets put around cells. Commas within them become points if they are decimal ones.
-fn without_quotes(row: &str, has_decimal_commas: bool) -> String {
-    let mut found = String::with_capacity(row.len());
-    for (place, text) in row.split('"').enumerate() {
-        let is_number = has_decimal_commas && place % 2 == 1 && has_decimal_comma(text.trim());
-        found.extend((place > 0).then_some(' '));
-        found.extend(text.chars().map(|c| if is_number && c == ',' { '.' } else { c }));
-    }
-    found
-}
-
-/// Whether commas within the quotes of one cell of several are decimal ones: some of them is surely one.
-fn has_decimal_commas_in_quotes(body: &[(usize, &str)]) -> bool {
-    let is_sure = |row: &&str| {
-        // Between the quotes of a row of one cell a comma may part two numbers.
-        let has_several = row.trim().trim_matches('"').contains('"');
-        has_several && row.split('"').skip(1).step_by(2).any(|text| is_surely_decimal(text.trim()))
-    };
-    body.iter().any(|(_, row)| is_sure(row))
-}
-
-/// Whether the comma of a number is a decimal one, and parts no thousands as in `1,048`.
-fn is_surely_decimal(word: &str) -> bool {
-    let parts_thousands = word
-        .trim_start_matches(['+', '-'])
-        .split_once(',')
-        .is_some_and(|(whole, rest)| rest.len() == 3 && (1..=3).contains(&whole.len()) && !whole.starts_with('0'));
-    has_decimal_comma(word) && !parts_thousands
-}
-
-/// Whether commas stand for decimal points. There must be commas; semicolons, tabs or blanks must separate the columns; and every cell may have one comma, not
-/// at its end. Points may stand in other cells, where semicolons or tabs separate these and some comma is surely no sign of thousands. If only blanks
-/// separate the columns, a cell may not begin with a comma either, since blanks may stand beside any delimiter.
-fn has_decimal_commas(body: &[(usize, &str)]) -> bool {
-    let has_points = body.iter().any(|(_, text)| text.contains('.'));
-    let cells = |text: &str| {
-        let delimited = text.contains([';', '\t']);
-        (delimited || !has_points)
-            && text.trim().split([';', '\t', ' ']).all(|cell| match cell.matches(',').count() {
-                0 => true,
-                1 => !cell.ends_with(',') && !cell.contains('.') && (delimited || !cell.starts_with(',')),
-                _ => false,
-            })
-    };
-    let is_sure = |text: &&str| text.split([';', '\t']).any(|cell| is_surely_decimal(cell.trim()));
-    let parted = |text: &str| text.trim().contains([';', '\t', ' ']);
-    body.iter().any(|(_, text)| text.contains(','))
-        && body.iter().all(|(_, text)| parted(text) && cells(text))
-        && (!has_points || body.iter().any(|(_, text)| is_sure(text)))
-}
-
-/// Whether each row is one number with a decimal comma: below one name, or where digits after the comma begin with a zero, as no second number does.
-fn is_column_with_commas(body: &[(usize, &str)], names: usize) -> bool {
-    let begins_with_zero = |text: &str| {
-        let (whole, fraction) = text.trim().split_once(',')?;
-        let is_number = !whole.contains('.') && number(&format!("{whole}.{fraction}")).is_some();
-        is_number.then(|| fraction.len() > 1 && fraction.starts_with('0'))
-    };
-    let found: Option<Vec<bool>> = body.iter().map(|(_, text)| begins_with_zero(text)).collect();
-    found.is_some_and(|zeros| names == 1 || zeros.contains(&true))
 }
 
 /// The numbers of a row. Delimiters may end it. Any other empty cell is refused: to skip it would move the cells after it.

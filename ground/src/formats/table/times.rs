@@ -18,6 +18,9 @@ const ROUNDED_TOLERANCE: f64 = 0.5;
 /// Largest relative difference between the median step and the given `dt` at which times that drift are accepted.
 const DRIFT_TOLERANCE: f64 = 1e-4;
 
+/// Least step, as a multiple of the given `dt`, at which rows are missing.
+const MISSING: f64 = 1.5;
+
 /// Relative accuracy of times that were computed as multiples of the first interval.
 const EXACT_TOLERANCE: f64 = 1e-12;
 
@@ -125,10 +128,18 @@ fn interval(
                 warnings.push(format!("{warning}; times are left out, and rows are taken every {own} s"));
                 Ok(own)
             }
-            Some(_) => {
-                let (given, file) = (format!("{own} s"), format!("{dt} s"));
-                Err(RecordError::Contradiction { key: "dt", given, line: rows.lines[last], file })
-            }
+            Some(row) => Err(match uneven(rows, row, at) {
+                // Rows are missing; the interval of the others is the one that is given.
+                RecordError::Uneven { line, time, step, usual }
+                    if (usual - own).abs() <= DRIFT_TOLERANCE * own && step >= MISSING * own =>
+                {
+                    RecordError::Uneven { line, time, step, usual }
+                }
+                _ => {
+                    let (given, file) = (format!("{own} s"), format!("{dt} s"));
+                    RecordError::Contradiction { key: "dt", given, line: rows.lines[last], file }
+                }
+            }),
         };
     }
     if dt.is_nan() || dt <= 0.0 {
