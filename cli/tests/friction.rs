@@ -86,6 +86,37 @@ fn a_page_tells_slides_at_the_start_and_none_of_a_column_that_is_lost() {
     assert!(length.split(' ').next().is_some_and(|t| t.parse::<f64>().is_ok_and(|t| t < 12.0)));
 }
 
+/// A block that turns in the air and a column that still rocks where the run ends: no work was done, and nothing stayed.
+#[test]
+fn a_run_that_ends_in_flight_or_rocking_is_told_so() {
+    let folder = Folder::new();
+    let thrown = "friction = 0.5\n[[block]]\nhalf_width = 0.5\nhalf_height = 0.5\ndensity = 2700.0\n[initial]\nx = [0.0]\ny = [3.0]\n\
+        vx = [0.1]\nvy = [1.0]\nomega = [0.3]\n[solver]\nt_end = 0.5\n";
+    run(&folder, thrown);
+    let told = folder.page();
+    assert!(!told.contains("balance is open") && !told.contains("Relative error"), "rounding over rounding");
+    assert!(told.contains("Where the blocks are at the end of the run, still sliding or flying"), "{told}");
+    run(&folder, &SLIDES.replace("half_width = 1.0", "half_width = 0.1").replace("t_end = 3.0", "t_end = 0.8"));
+    let told = folder.page();
+    assert!(told.contains("Where the blocks that slid or flew are at the end of the run:") && !told.contains("stayed"), "{told}");
+}
+
+/// The ground that moves vertically alone has its own peak; and figures of another run do not pass for those of this one.
+#[test]
+fn vertical_shaking_has_its_peak_and_old_figures_a_warning() {
+    let folder = Folder::new();
+    let vertical =
+        THROWN.replace("[excitation.horizontal]\nkind = \"sine-pulse\"\namplitude_g = 0.8\nfrequency = 1.5\n", "");
+    run(&folder, &vertical);
+    let told = folder.page();
+    assert!(told.contains("<span class=\"value\">1.6 g</span> <span class=\"note\">vertical</span>"), "{told}");
+    folder.write("still.toml", "[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.6\n[initial]\ntheta = [0.1]\n");
+    folder.succeeds("run still.toml --out still");
+    folder.write("figures/slides.svg", "<svg/>");
+    let warned = folder.says("plot still --out figures").1;
+    assert!(warned.contains("slides.svg was there before, and is no figure of this run"), "{warned}");
+}
+
 /// While a block flies there is no contact: no force, no friction demand, and no slide.
 #[test]
 fn free_interfaces_have_neither_force_nor_demand_nor_slide() {

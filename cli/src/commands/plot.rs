@@ -4,7 +4,7 @@ use crate::arguments::Picture;
 use crate::error::Failure;
 use crate::output;
 use crate::plot::{self, Figure, Paper};
-use crate::terminal::print;
+use crate::terminal::{print, warn};
 use crate::text::shown;
 use rocking::run_folder::Results;
 use std::fmt::Write as _;
@@ -16,6 +16,12 @@ pub fn plot(folder: &Path, format: Picture, out: &Path, paper: &Paper) -> Result
     let mut text = format!("wrote {} figures to {}\n", figures.len(), shown(out));
     for (file, caption) in &figures {
         let _ = writeln!(text, "{file}: {caption}");
+    }
+    for name in plot::NAMES {
+        let file = format!("{name}.{}", format.extension());
+        if figures.iter().all(|(drawn, _)| *drawn != file) && out.join(&file).is_file() {
+            warn(&[format!("{} was there before, and is no figure of this run", shown(&out.join(&file)))]);
+        }
     }
     print(&text)
 }

@@ -188,8 +188,9 @@ fn stayed(results: &Results, report: &SlidingReport, moved: &[usize]) -> String 
     let verb = match response.status {
         StopReason::Undetermined => "stood at the end of the run",
         _ if response.slides_on => "are at the end of the run, still sliding or flying",
-        _ if response.cuts_ground_motion() => "are at the end of the run",
-        _ => "stayed",
+        // Rocking blocks may slide on.
+        StopReason::AtRest if !response.cuts_ground_motion() => "stayed",
+        _ => "are at the end of the run",
     };
     let which = if moved.len() < all.len() { " that slid or flew" } else { "" };
     let places: String = moved.iter().map(place).collect();
@@ -241,6 +242,7 @@ pub fn tiles(results: &Results) -> String {
     tiles.push(match peaks {
         [0.0, 0.0] => ("ground acceleration", "none".into(), "the ground does not move".into()),
         [_, 0.0] => ("peak ground acceleration", x, "horizontal".into()),
+        [0.0, _] => ("peak ground acceleration", y, "vertical".into()),
         _ => ("peak ground acceleration", x, format!("horizontal; vertical {y}")),
     });
     let tile = |(name, value, note): (&str, String, String)| {

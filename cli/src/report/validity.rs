@@ -37,6 +37,18 @@ fn largest_demand(results: &Results) -> Option<(usize, f64)> {
 /// Relative error of the energy balance above which a run is not trusted.
 const BALANCE: f64 = 1e-6;
 
+/// Share of the energy that lifts the column by its own height below which works are rounding: a block in free flight does none.
+const NO_WORK: f64 = 1e-11;
+
+/// The energy balance of a run in which some work was done ([`SlidingReport::balance`]).
+fn balance(results: &Results, report: &SlidingReport) -> Option<f64> {
+    let height: f64 = results.column.blocks().iter().map(|block| 2.0 * block.half_height).sum();
+    let least = NO_WORK * results.column.mass_above(0) * results.column.gravity() * height;
+    let SlidingReport { ground_work, friction_work, impact_losses, ground_exchange, energy_change, .. } = *report;
+    let works = [ground_work, friction_work, impact_losses, ground_exchange, energy_change];
+    report.balance().filter(|_| works.iter().any(|work| work.abs() > least))
+}
+
 /// The verdict on a run whose friction is modelled.
 fn judge_sliding(results: &Results, report: &SlidingReport) -> Verdict {
     let response = &results.response;
@@ -69,7 +81,7 @@ fn judge_sliding(results: &Results, report: &SlidingReport) -> Verdict {
     }
     let mut why = format!("sliding and flight are part of it; {}", parts.join(", "));
     let mut notes = Vec::new();
-    match report.balance() {
+    match balance(results, report) {
         Some(error) if error <= BALANCE => {
             let _ = write!(why, ", and the energy balance closes to {}", significant(error, 1));
         }
@@ -251,7 +263,7 @@ pub fn details(results: &Results) -> String {
         text.push_str(&durations(validity));
     }
     match &response.sliding {
-        Some(report) => text.push_str(&slides(report, response.lost_block().is_some())),
+        Some(report) => text.push_str(&slides(results, report)),
         None => text.push_str(
             "<p>In the model blocks rock about their corners; they neither slide nor fly. The friction demand is the coefficient that an \
              interface needs so as not to slide; a normal force that falls to zero is a block about to lift off.</p>\n",
@@ -394,8 +406,8 @@ fn separations(results: &Results) -> String {
     }
 }
 
-/// What slid and flew, per interface, with the energy balance and the instants that friction leaves open. A column that `is_lost` ends the run in its fall.
-fn slides(report: &SlidingReport, is_lost: bool) -> String {
+/// What slid and flew, per interface, with the energy balance and the instants that friction leaves open.
+fn slides(results: &Results, report: &SlidingReport) -> String {
     let mut text = String::from(
         "<p>Blocks stick, slide and fly by Coulomb's law and Moreau's law of impact: where a contact sticks, |T|/N stays below its static \
          coefficient; while it slides, |T|/N is the kinetic one; where the normal force falls to zero, the blocks part.</p>\n",
@@ -426,13 +438,13 @@ fn slides(report: &SlidingReport, is_lost: bool) -> String {
          <th scope=\"col\">way slid [cm]</th><th scope=\"col\">time sliding [s]</th><th scope=\"col\">flights</th>\
          <th scope=\"col\">time free [s]</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
     );
-    if is_lost {
+    if results.response.lost_block().is_some() {
         text.push_str("<p>The run ends in the fall: slides at its end are not those with which blocks stay, and count flights.</p>\n");
     }
     if report.highest_flight > 0.0 {
         let _ = writeln!(text, "<p>Largest gap of a flight: {} cm.</p>", significant(100.0 * report.highest_flight, 3));
     }
-    if let Some(error) = report.balance() {
+    if let Some(error) = balance(results, report) {
         let joules = |work: f64| format!("{}&nbsp;J", significant(work, 5));
         let _ = writeln!(
             text,

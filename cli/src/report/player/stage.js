@@ -65,11 +65,12 @@ function frameView() {
   high += (1 - follow[0]) * ground[0][1];
   const [down, rise] = ground[1].map(end => (1 - follow[1]) * end);
   const room = height - GROUND_DEPTH - MARGIN;
-  const fitting = Math.min(room / (up + rise - down), (width - 2 * MARGIN) / (high - low));
-  const scale = Math.max(fitting, 0.62 * Math.min(room / tall, (width - 2 * MARGIN) / (3.2 * wide)));
+  // Blocks that are thrown fit in their flight; a column that falls may leave the picture to the side.
+  const above = room / (up + rise - down), beside = (width - 2 * MARGIN) / (high - low);
+  const scale = Math.min(above, Math.max(beside, 0.62 * Math.min(room / tall, (width - 2 * MARGIN) / (3.2 * wide))));
   // A column that falls beyond the picture falls to one side: the other side keeps its base.
   let centre = 0.5 * (low + high);
-  const half = 0.5 * width / scale - 2 * wide;
+  const half = Math.max(0, 0.5 * width / scale - 2 * wide);
   centre = Math.max(-half, Math.min(half, centre));
   view = { scale, left: 0.5 * width - scale * centre, bottom: height - GROUND_DEPTH + scale * down, follow };
 }

@@ -25,6 +25,9 @@ const address = new URLSearchParams(location.search);
 const element = id => document.getElementById(id);
 const calm = matchMedia("(prefers-reduced-motion: reduce)");
 
+// Height of a block above its contact from which on it counts as flying, in m; joints are written to a tenth of it.
+const FLIES = 5e-6;
+
 // ---- The state at a time.
 
 // The last index of an ascending list whose entry is not above the value; -1 if there is none.
@@ -49,8 +52,11 @@ function linear(list, { frame, share }) {
   return share > 0 ? list[frame] + share * (list[frame + 1] - list[frame]) : list[frame];
 }
 
+// Whether a block flies above the one below in the interval that begins with a frame.
+const flies = (block, frame) => run.joints !== null && [frame, frame + 1].some(at => run.joints[block][1][at] > FLIES);
+
 // Angles at a place: those of the frame, or the cubic through both frames with their rates. Between coarse frames the cubic may
-// cross where the blocks cannot: there they touch.
+// cross where the blocks cannot: there they touch, unless they fly.
 function anglesAt({ frame, step, share: s }) {
   if (s === 0) return run.theta.map(list => list[frame]);
   const r = 1 - s, signs = run.patterns[run.pattern[frame]].signs;
@@ -59,13 +65,24 @@ function anglesAt({ frame, step, share: s }) {
     const rate = run.omega[block];
     let angle = r * r * (1 + 2 * s) * list[frame] + s * s * (3 - 2 * s) * list[frame + 1]
       + step * s * r * (r * rate[frame] - s * rate[frame + 1]);
-    if (signs[block] === 0 && block > 0 || signs[block] * (angle - below) < 0) angle = below;
+    if (!flies(block, frame) && (signs[block] === 0 && block > 0 || signs[block] * (angle - below) < 0)) angle = below;
     return below = angle;
   });
 }
 
-// Where blocks stand on each other at a place, null where nothing slides or flies.
-const jointsAt = place => run.joints && run.joints.map(parts => parts.map(list => linear(list, place)));
+// Where blocks stand on each other at a place, null where nothing slides or flies. The joints of a flying block are those of the lower of its corners:
+// where that changes between two frames, the joint of the later one is that of the earlier corner.
+function jointsAt(place) {
+  const { frame, share } = place;
+  return run.joints && run.joints.map((parts, block) => {
+    const [here, there] = [frame, frame + 1].map(at => at <= last ? run.patterns[run.pattern[at]].signs[block] : 0);
+    if (share === 0 || here === there || !flies(block, frame)) return parts.map(list => linear(list, place));
+    const angle = run.theta[block][frame + 1] - (block > 0 ? run.theta[block - 1][frame + 1] : 0);
+    const [from, to] = [frame, frame + 1].map(at => parts.map(list => list[at]));
+    const moved = to[2] - from[2], next = [to[0] + moved * Math.cos(angle), to[1] - moved * Math.sin(angle), from[2]];
+    return from.map((value, part) => value + share * (next[part] - value));
+  });
+}
 
 function stateAt(t) {
   const place = placeOf(t);
@@ -78,7 +95,6 @@ function stateAt(t) {
 
 // Corners of the blocks (bottom left, bottom right, top right, top left), and per interface its contact, its state (closed, on a pivot, or apart) and
 // its pivot, the origin at the centre of the base on the ground. Interface i pivots s_i c_i from the centre of its contact, in the axes of the block below; where there are joints, at (a, c).
-const FLIES = 5e-6; // m; joints are written to a tenth of it
 function outlines(theta, signs, joints) {
   const turn = (angle, u, v) => [u * Math.cos(angle) + v * Math.sin(angle), v * Math.cos(angle) - u * Math.sin(angle)];
   // Middle of the face below, and its angle.
