@@ -51,7 +51,9 @@ pub fn moving_text(joints: &Joints) -> String {
     section(&mut out, &arena, CARRIED, inputs);
     out.push_str(ZERO_INPUTS);
     out.push_str(
-        "Further inputs of translation c: cos_face_c and sin_face_c of the angle\n\
+        "link_inertia_a [kg m^2], link_moment_a [kg m]: moment of inertia and first moment about the pivot of link a of the link and all masses above, those in\n\
+         the next pivot; link_lever_a [m] leads to that pivot. carried_c_a [kg m], carried_mass_c [kg]: first moment about the pivot of link a, and mass, of what\n\
+         translation c moves. In flight the pivot is the middle of the base. Further inputs of translation c: cos_face_c and sin_face_c of the angle\n\
          of its face, face_omega_c, the rate of the face, rate_c, that of the translation, and lift_c, mu with the sign of the slide. In flight lift_c is zero,\n\
          and the vertical direction has cos_face_c = 0 and sin_face_c = -1.\n",
     );
@@ -67,7 +69,8 @@ const ZERO_INPUTS: &str = "Inputs that are not listed are zero.\n";
 
 /// What the sizes of blocks stand for.
 const ALIGNED: &str = "Centroids are at half height, and interfaces that stick stand aligned: c_i is half the contact at interface i. Tapered blocks, and blocks that\n\
-    stick displaced, have the same programs with other inputs. u_i [m]: slide of interface i, to the right along its face; mu_i: its coefficient of kinetic friction.\n";
+    stick displaced, have the same programs with other inputs. u_i [m], u_i_dot [m/s]: slide of interface i, positive to the right along its face, and its rate; mu_i: its coefficient of kinetic friction.\n\
+    apart_x_i, apart_y_i [m]: place of a block in flight. Rows of angles are in N m, those of translations in N.\n";
 
 /// Lines `left = right` below a heading, without those that are zero.
 fn section(out: &mut String, arena: &Arena, name: &str, lines: impl IntoIterator<Item = (String, Expr)>) {
@@ -249,7 +252,9 @@ impl Sections<'_> {
              clockwise positive: {links}. A body vector is turned by $R(\\theta) (u, v) = (u \\cos\\theta + v \\sin\\theta, -u \\sin\\theta + v \\cos\\theta)$. \
              The half-widths of base and top of block $i$ are $b_i^{{\\mathrm{{bot}}}}$ and $b_i^{{\\mathrm{{top}}}}$. Centroids are at half height, and interfaces \
              that stick stand aligned, with contacts of half-width $c_i$; tapered blocks, and blocks that stick displaced, have the same programs with other inputs. \
-             Of these states, {}. The ground accelerates by $\\ddot x_g$, and $\\hat g = g + \\ddot y_g$.\n",
+             Lengths are in m, masses in kg, moments of inertia in kg\\,m$^2$. The slide $u_i$ [m] of interface~$i$ is positive to the right along its face, and \
+             $T$ and $N$ are the forces of the contact on the block above, to the right along the face and across it. Of these states, {}. $x$ points to the right and \
+             $y$ upwards, the ground accelerates by $(\\ddot x_g, \\ddot y_g)$, and $\\hat g = g + \\ddot y_g$ with the acceleration $g$ of gravity.\n",
             joined(&states.collect::<Vec<_>>())
         );
     }
@@ -267,9 +272,9 @@ impl Sections<'_> {
     /// Moments, levers and masses that links and translations carry.
     fn carried(&self, quantities: &Quantities, out: &mut String) {
         out.push_str(
-            "\n\\section*{What links and translations carry}\nLink $a$ turns by $\\theta_a$ about its pivot. About it, $J_a$ [kg\\,m$^2$] is the moment of inertia and \
+            "\n\\section*{What links and translations carry}\nLink $a$ turns by $\\theta_a$ about its pivot, in flight about the middle of its base. About it, $J_a$ [kg\\,m$^2$] is the moment of inertia and \
              $\\mathbf{S}_a$ [kg\\,m] the first moment of the link and all masses above, those in the next pivot, to which $\\mathbf{d}_a$ leads, lateral ($\\perp$) and axial \
-             ($\\parallel$). Translation $c$ moves the mass $M_c$ [kg], whose first moment as far as link $a$ turns it is $\\mathbf{P}_{ca}$ [kg\\,m]. At the present slides,\n",
+             ($\\parallel$). Translation $c$ moves the mass $M_c$ [kg], whose first moment about the pivot of link $a$, as far as that link turns it, is $\\mathbf{P}_{ca}$ [kg\\,m]. At the present slides,\n",
         );
         let mut definitions = Vec::new();
         let mut define = |name: String, value: Expr| definitions.push(self.equation(&name, value));
@@ -331,7 +336,8 @@ fn program(record: &MovingRecord, out: &mut String) {
     let _ = writeln!(
         out,
         "\n\\section*{{Program}}\nThe emitted program \\texttt{{{}}} serves all states with as many angles and translations. It has {} and {}; its inputs are sines \
-         and cosines, rates, and the moments, levers and masses that links and translations carry at the present slides. Its lateral components point to the left: they are minus those with $\\perp$ above. \
+         and cosines, rates, and the moments, levers and masses that links and translations carry at the present slides. There ground\\_x is $\\ddot x_g$ and gravity $\\hat g$; link\\_inertia, link\\_moment and link\\_lever are $J$, $\\mathbf{{S}}$ and $\\mathbf{{d}}$, carried and carried\\_mass $\\mathbf{{P}}$ and $M$. \
+         Its lateral components point to the left: they are minus those with $\\perp$ above. \
          Of translation $c$, cos\\_face and sin\\_face are those of the angle of its face, face\\_omega the rate of the face, rate that of the translation, and lift \
          its coefficient $\\mu_c$ with the sign of the slide; in flight the lift is zero, and the vertical direction has 0 and $-1$. Its statements, in order:",
         record.name(),
@@ -474,7 +480,8 @@ fn described_in_tex(joint: Joint, number: usize) -> String {
         Slip::Left => "left",
     };
     let face = if carrier == Carrier::Upper { "upper" } else { "lower" };
-    format!("{place} and slides by $u_{{{number}}}$ to the {side} along the {face} face")
+    let sign = if slip == Slip::Right { ">" } else { "<" };
+    format!("{place} and slides to the {side} along the {face} face, $\\dot u_{{{number}}} {sign} 0$")
 }
 
 fn notation(rows: &Rows) -> Notation {

@@ -325,7 +325,7 @@ impl Findings {
                 writeln!(text, "note: drums of {density} kg/m³; stone has 1500 to 3000 kg/m³, which are 1.5 to 3 t/m³");
         }
         self.table_of_blocks(text);
-        self.table_of_stacks(text, gravity);
+        self.table_of_stacks(text, &scene.column);
         self.restitution(text, scene);
     }
 
@@ -350,7 +350,7 @@ impl Findings {
         }
     }
 
-    fn table_of_stacks(&self, text: &mut String, gravity: f64) {
+    fn table_of_stacks(&self, text: &mut String, column: &Column) {
         text.push_str(
             "\nthe stack above each interface as one body, c distance of its centre of gravity from the nearer end of its contact, h_P its height:\n\
              interface  c [m]    h_P [m]  alpha [rad]  p [rad/s]  opens at [m/s2]  [g]      Housner's ratio\n",
@@ -365,9 +365,15 @@ impl Findings {
                 stack.slenderness,
                 stack.frequency_parameter,
                 stack.uplift_acceleration,
-                stack.uplift_acceleration / gravity,
+                stack.uplift_acceleration / column.gravity(),
                 stack.housner_ratio
             );
+        }
+        let is_displaced = |interface: usize| {
+            column.centroid_offset(interface).abs() > ROUNDING_OF_RATIOS * column.contact_half_width(interface)
+        };
+        if (0..column.len()).any(is_displaced) {
+            text.push_str("Housner's ratio of a displaced stack is that of the stack above the middle of its contact; its impacts to either side have other ratios\n");
         }
         let falling = self.stacks.iter().filter(|stack| stack.slenderness <= 0.0);
         let falling: Vec<String> = falling.map(|stack| stack.interface.to_string()).collect();
