@@ -117,8 +117,13 @@ fn found<'py>(key: &str, value: &Bound<'py, PyAny>) -> PyResult<Found<'py>> {
     if let Some(method) = value.getattr_opt(intern!(py, "_scene_keys"))? {
         return found(key, &method.call0()?);
     }
+    refuse_units_and_complex(key, value)?;
     if let Some(method) = value.getattr_opt(intern!(py, "tolist"))? {
-        return found(key, &method.call0()?);
+        let plain = method.call0()?;
+        // That of `numpy.longdouble` is itself.
+        if !plain.get_type().is(&value.get_type()) {
+            return found(key, &plain);
+        }
     }
     if let Some(method) = value.getattr_opt(intern!(py, "__fspath__"))? {
         return found(key, &method.call0()?);
@@ -130,6 +135,21 @@ fn found<'py>(key: &str, value: &Bound<'py, PyAny>) -> PyResult<Found<'py>> {
     Err(PyTypeError::new_err(format!(
         "key `{key}`: a {kind} cannot stand in a scene; give a number, text, a list or a dictionary"
     )))
+}
+
+/// Refuses numbers of NumPy that are differences of times, which have a unit of their own, dates, or complex.
+fn refuse_units_and_complex(key: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
+    let py = value.py();
+    let Some(dtype) = value.getattr_opt(intern!(py, "dtype"))? else { return Ok(()) };
+    let kind = dtype.getattr_opt(intern!(py, "kind"))?.map(|kind| kind.str()).transpose()?;
+    let problem = match kind.as_ref().map(|kind| kind.to_str()).transpose()? {
+        Some("m" | "M") => {
+            "has a unit of its own; give numbers in the unit of the key, as value / numpy.timedelta64(1, 's')"
+        }
+        Some("c") => "is complex; give real numbers",
+        _ => return Ok(()),
+    };
+    Err(PyTypeError::new_err(format!("key `{key}`: {dtype} {problem}")))
 }
 
 fn list<'py>(key: &str, items: &Bound<'py, PyAny>) -> PyResult<Found<'py>> {

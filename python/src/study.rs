@@ -84,7 +84,8 @@ impl Ida {
         let intensity = intensity(measure, sa_period, sa_damping)
             .map_err(|refused| error::of_study(py, &refused.value(py).to_string()))?;
         let records = records.iter().map(|record| record.record.clone()).collect();
-        let ida = studies::Ida::new((*scene.scene).clone(), records, intensity, levels);
+        let scene = (*scene.scene).clone();
+        let ida = py.detach(|| studies::Ida::new(scene, records, intensity, levels));
         let ida = match free_swing {
             Some(seconds) => ida.and_then(|ida| ida.with_free_swing(seconds)),
             None => ida,

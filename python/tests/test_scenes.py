@@ -167,6 +167,32 @@ def test_bad_columns_and_motions_are_refused() -> None:
         rk.simulate(COLUMN, rk.pulse("ricker", amplitude=1.0, amplitude_g=1.0, omega=1.0))
 
 
+@pytest.mark.parametrize("value", [np.longdouble("0.9"), np.float32(0.9), np.float64(0.9), np.array(0.9, dtype=np.longdouble)])
+def test_numbers_of_numpy_are_numbers(value: object) -> None:
+    column = rk.Column.prisms(1, half_width=0.4, half_height=1.6)
+    assert abs(rk.Scene(column, eta=value).keys["restitution"]["eta"] - 0.9) < 1e-7
+    assert rk.Scene(column, theta=np.array([0.125], dtype=np.longdouble)).keys["initial"]["theta"][0] == 0.125
+    axis = np.linspace(0.5, 0.75, 2, dtype=np.longdouble)
+    assert rk.sweep(rk.Scene(column, rk.pulse("ricker", amplitude=1.0, omega=2.0)), {"eta": axis}).table.iloc[:, 1].tolist() == [0.5, 0.75]
+
+
+def test_times_with_units_and_complex_numbers_are_refused() -> None:
+    scene = rk.Scene(rk.Column.prisms(1, half_width=0.4, half_height=1.6), rk.pulse("ricker", amplitude=1.0, omega=2.0))
+    nanoseconds = np.array([0, 1], "m8[ns]")
+    for refused in (
+        lambda: rk.simulate(scene, t_eval=nanoseconds),
+        lambda: scene.replace(t_end=np.timedelta64(20, "ns")),
+        lambda: rk.sweep(scene, {"t_end": nanoseconds}),
+        lambda: scene.replace(eta=np.complex64(0.5)),
+        lambda: scene.replace(eta=np.clongdouble(0.5)),
+        lambda: rk.Record([0.0, 1.0], np.timedelta64(1, "ns")),
+        lambda: rk.Record([0.0, 1.0], 0.01, start=np.datetime64(5, "ns")),
+        lambda: rk.Record([0.0, 1.0], 0.01).scaled(pga=np.complex64(1 + 2j)),
+    ):
+        with pytest.raises(TypeError):
+            refused()
+
+
 def test_what_was_given_may_change_afterwards() -> None:
     """Arrays and dictionaries were shared: text, sweeps and pickles of a scene followed them, its runs did not."""
     theta, motion, keys = np.array([0.02, 0.02]), {"kind": "ricker", "amplitude": 2.0, "omega": 5.0}, {"output.columns": ["top"]}

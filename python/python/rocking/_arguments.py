@@ -24,7 +24,9 @@ def whole(name: str, value: Any) -> int:
 def number(name: str, value: Any) -> float:
     """A number; text, truths and arrays are none, though Python would read some of them."""
     is_scalar = getattr(value, "ndim", 0) == 0 and (hasattr(type(value), "__float__") or hasattr(type(value), "__index__"))
-    if isinstance(value, (str, bytes, bool, np.bool_)) or not is_scalar:
+    # Differences of times have a unit of their own, and would be taken as so many of the unit of the argument.
+    has_other_kind = getattr(getattr(value, "dtype", None), "kind", "") in ("m", "M", "c")
+    if isinstance(value, (str, bytes, bool, np.bool_)) or has_other_kind or not is_scalar:
         raise TypeError(f"{name} is of {type(value).__name__}; give a number")
     try:
         return float(value)

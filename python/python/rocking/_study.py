@@ -150,7 +150,7 @@ class Ida:
 
         It is run as it is: it has no keys, and nothing in it can be replaced.
         """
-        asked = self.scene.keys.get("output") or {}
+        asked = self.scene._keys.get("output") or {}
         times = asked.get("times")
         times = None if times is None else np.asarray(times, dtype=np.float64).tolist()
         return Scene._of({}, RUN, self._ida.scene(whole("index", index), asked.get("dt"), times))
