@@ -98,7 +98,10 @@ fn a_run_that_ends_in_flight_or_rocking_is_told_so() {
     assert!(told.contains("Where the blocks are at the end of the run, still sliding or flying"), "{told}");
     run(&folder, &SLIDES.replace("half_width = 1.0", "half_width = 0.1").replace("t_end = 3.0", "t_end = 0.8"));
     let told = folder.page();
-    assert!(told.contains("Where the blocks that slid or flew are at the end of the run:") && !told.contains("stayed"), "{told}");
+    assert!(
+        told.contains("Where the blocks that slid or flew are at the end of the run:") && !told.contains("stayed"),
+        "{told}"
+    );
 }
 
 /// The ground that moves vertically alone has its own peak; and figures of another run do not pass for those of this one.
