@@ -78,6 +78,31 @@ fn a_figure_is_laid_out_for_the_width_of_its_paper() {
     folder.refused("plot out --width 20", &["give 80 to 500 mm"]);
 }
 
+/// Thirteen ticks of time on narrow paper: some have no number.
+#[test]
+fn numbers_of_an_axis_do_not_run_into_one_another() {
+    let scene =
+        "[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.6\n[initial]\ntheta = [0.1]\n[solver]\nt_end = 0.24\n";
+    let folder = Folder::with("s.toml", scene);
+    folder.succeeds("run s.toml --out out");
+    folder.succeeds("plot out --width 80");
+    for name in ["time-history", "energy", "forces"] {
+        let figure = folder.read(&format!("out/{name}.svg"));
+        let document = Document::parse(&figure).expect("XML");
+        let times = document.descendants().filter(|node| node.has_tag_name("text")).filter_map(|node| {
+            let text = node.text().filter(|text| text.starts_with("0.") && text.len() == 4)?;
+            let place = |name: &str| node.attribute(name).and_then(|value| value.parse::<f64>().ok());
+            (node.attribute("text-anchor") == Some("middle")).then_some(())?;
+            Some((place("y")?, place("x")?, text.to_string()))
+        });
+        let mut times: Vec<_> = times.collect();
+        times.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        let lowest = times.last().expect("numbers").0;
+        let x: Vec<f64> = times.iter().filter(|(y, ..)| *y == lowest).map(|(_, x, _)| *x).collect();
+        assert!(x.len() >= 3 && x.windows(2).all(|pair| pair[1] - pair[0] > 13.0 * 0.55 * 4.0), "{name}: {times:?}");
+    }
+}
+
 #[test]
 fn blocks_have_their_names_in_the_text_of_a_run_and_in_its_figures() {
     let (folder, told) = run(STATUE);

@@ -165,11 +165,17 @@ impl DrawnRun<'_> {
             mode: ModeName::of(pattern).to_string(),
             mirrored: pattern.is_mirrored(),
         };
-        let first = self.results.response.events.first().map(|event| event.before.clone());
-        let first = first.unwrap_or_else(|| self.samples[0].pattern.clone());
-        let mut stretches = vec![named(&first, 0.0)];
-        for event in &self.results.response.events {
-            let next = named(&event.after, event.t);
+        let first = self.results.response.events.first().map(|event| &event.before);
+        let mut pattern = first.unwrap_or(&self.samples[0].pattern);
+        let mut stretches = vec![named(pattern, 0.0)];
+        for knot in &self.knots {
+            // Blocks that fly turn from one pattern to another without an event: the next row has it.
+            let own = knot.after.as_ref().map_or(&knot.before.1, |(_, after)| after);
+            if own == pattern {
+                continue;
+            }
+            pattern = own;
+            let next = named(pattern, knot.t);
             let current = stretches.last_mut().expect("there is a first");
             if (&current.mode, current.mirrored) != (&next.mode, next.mirrored) {
                 current.to = next.from;

@@ -176,7 +176,7 @@ impl Sheet {
             .with_y_axis_max(y_range[1])
             .with_x_tick_step(x.step)
             .with_y_tick_step(y.as_ref().map_or(1.0, |axis| axis.step))
-            .with_x_tick_format(numbers(x))
+            .with_x_tick_format(numbers(x, every(x, frame.width)))
             .with_tick_size(style::NUMBER)
             .with_tick_length(4.0)
             .with_show_grid(y.is_some())
@@ -186,7 +186,7 @@ impl Sheet {
         layout.theme.tick_color = style::INK.into();
         layout.suppress_y_ticks = y.is_none();
         if let Some(axis) = y {
-            layout = layout.with_y_tick_format(numbers(axis));
+            layout = layout.with_y_tick_format(numbers(axis, 1));
         }
         let mut scene = Scene::new(self.width, frame.bottom());
         add_axes_and_grid(&mut scene, &ComputedLayout::from_layout(&layout), &layout);
@@ -462,9 +462,25 @@ fn inside(drawn: Primitive, width: f64) -> Primitive {
     }
 }
 
-fn numbers(axis: &Axis) -> TickFormat {
+/// The numbers at the ticks of an axis, at those that are multiples of so many steps.
+fn numbers(axis: &Axis, every: u32) -> TickFormat {
     let axis = axis.clone();
-    TickFormat::Custom(Arc::new(move |value| if axis.numbers { axis.number(value) } else { String::new() }))
+    TickFormat::Custom(Arc::new(move |value| {
+        let steps = (value / axis.step).round();
+        if axis.numbers && steps % f64::from(every) == 0.0 { axis.number(value) } else { String::new() }
+    }))
+}
+
+/// Room between two numbers of an axis `[px]`.
+const BETWEEN_NUMBERS: f64 = 5.0;
+
+/// Of how many ticks one has a number, so that the numbers of an axis of this width do not run into one another `[px]`.
+fn every(axis: &Axis, width: f64) -> u32 {
+    let [low, high] = axis.range;
+    let widest = [low, high].map(|end| text_width(&axis.number((end / axis.step).round() * axis.step), style::NUMBER));
+    let needed = widest[0].max(widest[1]) + BETWEEN_NUMBERS;
+    let apart = width * axis.step / (high - low);
+    [1, 2, 5, 10].into_iter().find(|every| f64::from(*every) * apart >= needed).unwrap_or(20)
 }
 
 /// The corners of a frame.
