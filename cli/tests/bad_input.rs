@@ -107,6 +107,15 @@ fn sizes_that_no_column_can_be_scaled_to() {
     }
 }
 
+/// The key at fault is named as the file has it.
+#[test]
+fn sizes_beyond_doubles_name_their_own_key() {
+    let scene = |sizes: &str| format!("[column]\nblocks = 2\n{sizes}");
+    refused(&scene("width = 0.8\nhalf_height = 1e308\n"), &["line 4", "`column.half_height`"]);
+    refused(&scene("height = 1.6\nshape = \"drum\"\ndiameter = 1e308\n"), &["line 5", "`column.diameter`"]);
+    refused("[[block]]\nhalf_width = 0.4\nhalf_height = 1e308\n", &["line 3", "half_height"]);
+}
+
 #[test]
 fn contradictory_keys() {
     let both = with("amplitude = 3.0", "amplitude = 3.0\namplitude_g = 0.3");

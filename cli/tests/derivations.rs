@@ -41,7 +41,9 @@ fn derivations_are_printed_as_text_as_code_and_as_latex() {
     assert_has(&code, &["use rocking::program::{", "fn energy_scene_constants", "fn series_scene_constants"]);
     let latex = folder.succeeds("derive --blocks 3 --mode 1.5 --format latex");
     assert_has(&latex, &["\\documentclass", "mode 1.5", "$(+,0,0)$", "J_{1} \\ddot\\theta_{1}", "\\end{document}\n"]);
-    folder.refused("derive --blocks 3 --mode 3.2", &["rocking modes --blocks 3"]);
+    for mode in ["3.2", "1.0", "18446744073709551616.1"] {
+        folder.refused(&format!("derive --blocks 3 --mode {mode}"), &["has no such mode", "rocking modes --blocks 3"]);
+    }
 }
 
 /// Pinned: what each pass is worth for three drums rocking apart.

@@ -207,8 +207,8 @@ impl Reader<'_> {
         let refuse = |problem: String| Fault::of_record(table, "record", self.beside(name), problem);
         let (folder, own) = parted(name);
         let path = self.beside(&folder.to_string_lossy());
+        let shown = if path.as_os_str().is_empty() { Path::new(".") } else { &path };
         let listed = |error: std::io::Error| {
-            let shown = if path.as_os_str().is_empty() { Path::new(".") } else { &path };
             let remedy = "give folder and name of the record, relative to the file that names it";
             let problem = format!("its folder {}: {error}; {remedy}", shown.display());
             refuse(problem)
@@ -229,8 +229,8 @@ impl Reader<'_> {
                     None => "it is a folder, and has no records; give folder and name of a record".into(),
                 },
                 false => match named(&records) {
-                    Some(known) => format!("no file of {} is of this record; name one of {known}", path.display()),
-                    None => format!("no file of {} is of this record, and there is no other", path.display()),
+                    Some(known) => format!("no file of {} is of this record; name one of {known}", shown.display()),
+                    None => format!("no file of {} is of this record, and there is no other", shown.display()),
                 },
             };
             return Err(refuse(problem));

@@ -105,7 +105,12 @@ pub enum Asked {
 /// The derivation or the operation counts of a mode or of states, as text.
 pub fn derive(blocks: usize, mode: &str, request: Asked) -> Result<String, Failure> {
     if !mode.trim_start().starts_with('(') {
-        let label = ModeLabel::parse(mode.trim()).ok_or_else(|| Failure::NotAMode(mode.into()))?;
+        let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+        let is_label = mode.trim().split_once('.').is_some_and(|(k, j)| is_number(k) && is_number(j));
+        let label = ModeLabel::parse(mode.trim()).ok_or_else(|| match is_label {
+            true => Failure::Mode(mode.into(), blocks),
+            false => Failure::NotAMode(mode.into()),
+        })?;
         let pattern = label.pattern(blocks).ok_or_else(|| Failure::Mode(mode.into(), blocks))?;
         return Ok(of_pattern(&pattern, request));
     }
