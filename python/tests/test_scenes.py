@@ -173,7 +173,7 @@ def test_numbers_of_numpy_are_numbers(value: object) -> None:
     assert abs(rk.Scene(column, eta=value).keys["restitution"]["eta"] - 0.9) < 1e-7
     assert rk.Scene(column, theta=np.array([0.125], dtype=np.longdouble)).keys["initial"]["theta"][0] == 0.125
     axis = np.linspace(0.5, 0.75, 2, dtype=np.longdouble)
-    assert rk.sweep(rk.Scene(column, rk.pulse("ricker", amplitude=1.0, omega=2.0)), {"eta": axis}).table.iloc[:, 1].tolist() == [0.5, 0.75]
+    assert rk.sweep(rk.Scene(column, rk.pulse("ricker", amplitude=1.0, omega=2.0)), {"eta": axis})["restitution.eta"].tolist() == [0.5, 0.75]
 
 
 def test_times_with_units_and_complex_numbers_are_refused() -> None:
@@ -369,6 +369,13 @@ def test_arguments_of_a_wrong_type_are_named():
         with pytest.raises((TypeError, ValueError), match=told):
             call()
     assert record.spectrum(np.array([0.5, 1.0], dtype=">f4")).shape == (2,) and rk.Record(pd.array([1, 2], dtype="Float64"), 0.01).dt == 0.01
+
+
+def test_a_record_in_a_sum_has_no_keys() -> None:
+    motion = rk.pulse("ricker", amplitude=1.0, omega=2.0) + rk.Record.synthetic(1, duration=4.0)
+    scene = rk.Scene(rk.Column.prisms(1, half_width=0.4, half_height=1.6), motion)
+    with pytest.raises(ValueError, match=r"term\[2\] is a Record and has no keys; give another record"):
+        scene.replace(keys={"excitation.horizontal.term[2].scale": 2.0})
 
 
 def test_sums_in_a_loop_are_one_sum():

@@ -349,7 +349,7 @@ def test_a_study_of_the_scene_of_a_point_runs():
     scene = rk.Scene(rk.Column.prisms(1, half_width=0.3, half_height=1.2), rk.pulse("ricker", amplitude=1.0, omega=2.0))
     point = rk.Sweep(scene, {"eta": [0.8, 0.9]}).scene(1)
     study = rk.Ida(point, [rk.Record.synthetic(1, duration=4.0).named("a")], "pgv", [0.5])
-    assert study.simulate(0).outcome.value == study.table()["outcome"][0]
+    assert study.simulate(0).outcome == study.table()["outcome"][0]
 
 
 def test_the_scene_of_a_point_is_run_as_it_is():

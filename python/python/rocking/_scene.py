@@ -558,6 +558,8 @@ def _put(keys: dict[str, Any], key: str, value: Any) -> None:
             place = inner
         else:
             place = _item(place, part, key)
+            if isinstance(place, Record):
+                raise ValueError(f"`{key}`: {name} is a Record and has no keys; give another record, as of Record.scaled")
     part = _part(last)
     if not isinstance(part, str):
         (name, number) = part
