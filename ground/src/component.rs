@@ -30,17 +30,35 @@ impl Direction {
     }
 }
 
-/// Whether a word of a name in capitals says that a component is vertical: `ACC UD`, `U-D`, `UP-DOWN`, `CH3-UD`, `ACC_Z`, `AZ`, `VERTICAL`.
+/// Whether a word of a name in capitals says that a component is vertical, and none says that it is horizontal: `ACC UD`, `U-D`, `UP-DOWN`, `CH3-UD`,
+/// `ACC_Z`, `ACCZ`, `VERTICAL`.
 fn has_vertical_word(name: &str) -> bool {
-    let is_end = |c: char| !c.is_ascii_alphanumeric();
-    let mut words = name.replace("U-D", "UD").replace("D-U", "UD");
-    words.retain(|c| c != '"');
+    let name = ["U-D", "N-S", "E-W"]
+        .iter()
+        .fold(name.to_string(), |name, parted| name.replace(parted, &parted.replace('-', "")));
+    let words = || name.split(|c: char| !c.is_alphanumeric());
     let is_vertical = |word: &str| {
-        let of_acceleration =
-            ["ACCELERATION", "ACCEL", "ACC", "A"].iter().any(|start| word.strip_prefix(start) == Some("Z"));
-        WORDS_FOR_VERTICAL.contains(&word) || word.starts_with("VERT") || of_acceleration
+        let after = ["ACCELERATION", "ACCEL", "ACC"].iter().find_map(|start| word.strip_prefix(start));
+        WORDS_FOR_VERTICAL.contains(&after.unwrap_or(word)) || word.starts_with("VERT")
     };
-    words.split(is_end).any(is_vertical)
+    WHOLE_FOR_VERTICAL.contains(&name.as_str())
+        || words().any(is_vertical) && !words().any(|word| HORIZONTAL.contains(&word) || word.starts_with("HOR"))
+}
+
+/// Whether a whole name is that of a component, as above the columns of a table: `NS`, `E-W`, `U-D`, `N00E`, `X`, `CANAL-1`, `090`.
+pub(crate) fn is_component(name: &str) -> bool {
+    let upper: String = name.to_uppercase().chars().filter(|c| c.is_alphanumeric()).collect();
+    let own = upper.strip_prefix("ACC").unwrap_or(&upper);
+    let (letters, digits) = own.split_at(own.find(|c: char| c.is_ascii_digit()).unwrap_or(own.len()));
+    let is_number = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+    let is_azimuth = letters.is_empty() && digits.len() == CODE
+        || ["N", "S"].contains(&letters) && digits.len() > 1 && digits.ends_with(['E', 'W']);
+    HORIZONTAL.contains(&own)
+        || VERTICAL.contains(&own)
+        || WHOLE_FOR_VERTICAL.contains(&own)
+        || is_channel_code(own)
+        || is_azimuth
+        || is_number && ["CH", "CHAN", "CHANNEL", "CANAL", "COMP", "H"].contains(&letters)
 }
 
 /// Whether the ending of a file's name, or the component that the file states, says that positive values point down.
@@ -57,7 +75,9 @@ const DOWN: [&str; 3] = ["DWN", "DOWN", "DN"];
 /// Endings of file names that name a vertical component.
 const VERTICAL: [&str; 13] = ["UP", "DWN", "DOWN", "VERTICAL", "VERT", "VER", "VRT", "VT", "UD", "DN", "U", "V", "Z"];
 /// Words that name a vertical component wherever they stand in the name of a column.
-const WORDS_FOR_VERTICAL: [&str; 10] = ["UP", "DWN", "DOWN", "VER", "VT", "VRT", "UD", "DU", "V", "Z"];
+const WORDS_FOR_VERTICAL: [&str; 7] = ["UP", "DWN", "DOWN", "VRT", "UD", "V", "Z"];
+/// Whole names of a vertical component that have other meanings within longer names.
+const WHOLE_FOR_VERTICAL: [&str; 3] = ["AZ", "DU", "D-U"];
 /// Endings of file names that name a horizontal component.
 const HORIZONTAL: [&str; 10] = ["NS", "EW", "N", "E", "H1", "H2", "L", "T", "X", "Y"];
 
@@ -209,8 +229,30 @@ mod tests {
         ] {
             assert_eq!(Direction::of("", name), Direction::Vertical, "{name}");
         }
-        for name in ["90 Deg", "N00E", "E-W", "Acc NS", "ax", "Chan 1: 360", "Santa Ana", "accx"] {
+        for name in [
+            "90 Deg",
+            "N00E",
+            "E-W",
+            "Acc NS",
+            "ax",
+            "Chan 1: 360",
+            "Santa Ana",
+            "accx",
+            "Accélération du sol",
+            "Acc Az. NS",
+            "Acc ver. B",
+            "Acc H1/V",
+            "Acc EW at U-D array",
+        ] {
             assert_eq!(Direction::of("", name), Direction::Horizontal, "{name}");
+        }
+        for name in
+            ["NS", "N-S", "E-W", "U-D", "V", "x", "N00E", "S45W", "CANAL-1", "Ch 2", "090", "HNZ", "acc_ns", "H1"]
+        {
+            assert!(is_component(name), "{name}");
+        }
+        for name in ["El", "Centro", "Acceleration", "values", "g", "1940", "PGA"] {
+            assert!(!is_component(name), "{name}");
         }
         assert_eq!(Direction::of("", "90 Deg"), Direction::Horizontal);
         assert_eq!(Direction::of("", "BH100"), Direction::Horizontal);

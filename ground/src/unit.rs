@@ -6,6 +6,16 @@ use std::fmt;
 /// Gravity where nothing else is given `[m/s²]`.
 pub const DEFAULT_GRAVITY: f64 = 9.81;
 
+/// Whether a word is a factor of a unit by itself: `x10`, `100*`, `10^-2`, `10**3`, `1/100`, `/10`. `X1` and `17/01/1994` are none.
+pub(crate) fn is_factor(word: &str) -> bool {
+    let is_power = |text: &str| text.len() > 1 && text.starts_with('1') && text[1..].bytes().all(|byte| byte == b'0');
+    let signs = ['x', 'X', '*', '×'];
+    is_power(word.trim_start_matches(signs)) && word.starts_with(signs)
+        || is_power(word.trim_end_matches(signs)) && word.ends_with(signs)
+        || ["10^", "10**"].iter().any(|base| word.trim_start_matches(signs).starts_with(base))
+        || word.strip_prefix("1/").or_else(|| word.strip_prefix('/')).is_some_and(is_power)
+}
+
 /// Unit of accelerations in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]

@@ -282,9 +282,9 @@ fn numbers_above_the_samples_and_parts_of_a_file_do_not_pass_unseen() {
         );
     }
     let whole = read(&many("# acceleration"), &plain).warnings;
-    assert!(!whole.iter().any(|warning| warning.contains("parts") || warning.contains("quantity")), "{whole:?}");
+    assert!(!whole.iter().any(|warning| warning.contains("parts") || warning.contains("another motion")), "{whole:?}");
     let velocity = read(&many("% VELOCITY TIME HISTORY"), &plain).warnings;
-    assert!(velocity[0].starts_with("line 1 names another quantity than an acceleration"), "{velocity:?}");
+    assert!(velocity[0].starts_with("line 1 names another motion than an acceleration"), "{velocity:?}");
 }
 
 /// The interval is right, and the file does not say another one.
@@ -296,6 +296,50 @@ fn a_gap_is_named_where_the_interval_is_given() {
         let error = refused(&text, options);
         assert!(error.starts_with("line 101: ") && error.contains("1.5"), "{error}");
     }
+}
+
+/// What looks like a component, a direction, a date or a remark is no factor, no spectrum and no other quantity.
+#[test]
+fn usual_headers_are_read_without_a_warning() {
+    for name in
+        ["X1 (g)", "Acc 17/01/1994 (g)", "Acc 1/2 (g)", "SE (g)", "Acc SE (g)", "NS (g) disp. corrected", "a in g"]
+    {
+        let file = read(&table(&format!("Time (s),{name}"), seconds), &options());
+        assert!(agrees(&file, G, 0.01) && file.warnings.is_empty(), "{name}: {:?}", file.warnings);
+    }
+    let given = TextOptions { dt: Some(0.01), ..options() };
+    for remark in [
+        "Sampling frequency: 100 Hz\n# units: g",
+        "Return period 475 years, units: g",
+        "Memphis, TN, acceleration (g)",
+        "velocity is filtered (g)",
+        "acceleration in g, X direction",
+        "acc (g) 18/05/1940",
+        "Acceleration in units of gravity (g)",
+    ] {
+        let file = read(&table(&format!("# {remark}"), |_, a| format!("{a}")), &given);
+        assert!(agrees(&file, G, 0.01) && file.warnings.is_empty(), "{remark}: {:?}", file.warnings);
+    }
+    // A title of as many words as there are columns, and samples that begin with a ramp.
+    let all = TextOptions { column: Some("all".into()), dt: Some(0.01), ..in_g() };
+    assert!(agrees(&read(&format!("El Centro\n{}", wrapped(2)), &all), G, 0.01));
+    let ramp = (0..24).map(|k| format!(" {}{}", 0.1 * f64::from(k), if k % 8 == 7 { "\n" } else { "" }));
+    assert_eq!(read(&ramp.collect::<String>(), &all).accel.len(), 24);
+    // Thousands that are decimals after all.
+    let decimals = "time (s);acc (mg)\n0;-998\n1;1.013\n2;250\n";
+    assert!(refused(decimals, &options()).contains("`lenient`"));
+    assert_eq!(read(decimals, &TextOptions { lenient: true, ..options() }).accel.len(), 3);
+}
+
+/// A row of numbers with a damaged one is not passed over for headings below it.
+#[test]
+fn rows_above_a_heading_are_not_lost() {
+    let second = table("Time (s),a (g)", seconds);
+    let error = refused(&format!("Kobe 1995\n0.00,0.1\n0.01,x.2\n{second}"), &options());
+    assert!(error.starts_with("line "), "{error}");
+    assert!(
+        refused("\"\"\n\"\"\n", &TextOptions { column: Some("all".into()), dt: Some(0.01), ..in_g() }).contains("no")
+    );
 }
 
 /// Times from Excel with signs of thousands, a title with a number above names, factors of units, and spectra.
@@ -372,7 +416,7 @@ fn samples_that_fill_row_after_row_are_read_as_all_columns() {
         (table("acc (g), vel (m/s)", |_, a| format!("{a},{a}")), "line 1: column `vel` is no acceleration"),
         (
             table("N-S E-W U-D", |_, a| format!("{a} {a} {a}")),
-            "line 1: each of the 3 columns has a name (N-S, E-W, U-D)",
+            "line 1: each of the 3 columns is a component (N-S, E-W, U-D)",
         ),
         (transposed(), "line 1: the numbers of the first row rise in equal steps: they are times and no samples"),
         (pairs(), "line 1: every second number of the first row rise in equal steps"),

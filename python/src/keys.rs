@@ -121,7 +121,7 @@ fn found<'py>(key: &str, value: &Bound<'py, PyAny>) -> PyResult<Found<'py>> {
     if let Some(method) = value.getattr_opt(intern!(py, "tolist"))? {
         let plain = method.call0()?;
         // That of `numpy.longdouble` is itself.
-        if !plain.get_type().is(&value.get_type()) {
+        if !plain.get_type().is(value.get_type()) {
             return found(key, &plain);
         }
     }

@@ -150,8 +150,8 @@ impl Ground {
         for axis in 0..2 {
             let accelerations: Vec<f64> = rows.iter().map(|row| row.ground[axis]).collect();
             let is_pulse = is_pulse(&results.excitation[["horizontal", "vertical"][axis]]);
-            let own = integrated(&times, &accelerations, is_pulse);
-            drift[axis] = drift_of(&times, &own, is_pulse);
+            let (own, own_drift) = displaced(&times, &accelerations, is_pulse);
+            drift[axis] = own_drift;
             // Accelerations read from a folder may be too large to integrate.
             if !own.iter().all(|d| d.is_finite()) {
                 continue;
@@ -172,6 +172,14 @@ impl Ground {
         let between = |a: [f64; 2], b: [f64; 2]| [0, 1].map(|axis| a[axis] + share * (b[axis] - a[axis]));
         [between(rows[before].ground, rows[index].ground), between(self.displacement[before], self.displacement[index])]
     }
+}
+
+/// Displacement at these times `[m]`, and the constant velocity that is to be taken out `[m/s]`. A pulse keeps it, wherever the run ends: the ground would
+/// otherwise begin with a motion against the push.
+fn displaced(times: &[f64], accelerations: &[f64], is_pulse: bool) -> (Vec<f64>, f64) {
+    let displacement = integrated(times, accelerations, is_pulse);
+    let drift = if is_pulse { 0.0 } else { drift_of(times, &displacement) };
+    (displacement, drift)
 }
 
 /// Whether a ground motion is a pulse, or a sum of pulses: its velocity at the end is no drift of a record.
@@ -208,11 +216,8 @@ fn integrated(times: &[f64], accelerations: &[f64], is_pulse: bool) -> Vec<f64> 
 }
 
 /// The mean velocity of the second half of the time `[m/s]`, if it is a drift: the base line of a record, or a harmonic motion that starts from rest, carries
-/// the ground away. A pulse begins at rest and has none, wherever the run ends: without it, the ground would begin with a motion against the push.
-fn drift_of(times: &[f64], displacement: &[f64], is_pulse: bool) -> f64 {
-    if is_pulse {
-        return 0.0;
-    }
+/// the ground away. Zero otherwise.
+fn drift_of(times: &[f64], displacement: &[f64]) -> f64 {
     let (first, last) = (times[0], times[times.len() - 1]);
     let half = times.partition_point(|t| *t < 0.5 * (first + last));
     // A single row has no mean velocity.
@@ -378,9 +383,7 @@ mod tests {
     fn of(end: f64, is_pulse: bool, acceleration: impl Fn(f64) -> f64) -> (Vec<f64>, f64) {
         let times: Vec<f64> = (0..=(100.0 * end).round() as usize).map(|place| 0.01 * place as f64).collect();
         let accelerations: Vec<f64> = times.iter().map(|t| acceleration(*t)).collect();
-        let displacement = integrated(&times, &accelerations, is_pulse);
-        let drift = drift_of(&times, &displacement, is_pulse);
-        (displacement, drift)
+        displaced(&times, &accelerations, is_pulse)
     }
 
     #[test]

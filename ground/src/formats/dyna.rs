@@ -97,13 +97,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let declared = Some(entry.count(count)?);
     let remedy = "use the acceleration file (.ACC), in cm/s^2, of the same record";
     let unit = match header.find("UNITS").or_else(|| header.find("UNIT")) {
-        // The peak that the header states says what the samples are.
-        None => match header.entries.iter().find(|(_, key, _)| key.starts_with("PGV_") || key.starts_with("PGD_")) {
-            Some((line, ..)) => {
-                return Err(Entry { line: *line, text: lines[*line - 1], remedy }.quoted("this is no acceleration:"));
-            }
-            None => options.units.unwrap_or(AccelerationUnit::CentimetrePerSecondSquared),
-        },
+        None => options.units.map_or_else(|| unit_by_peak(&header, lines, remedy), Ok)?,
         Some((line, text)) => Entry { line, text, remedy }.unit(text, options)?,
     };
     let (span, header_entry) = ((header.end, lines.len()), (entry.line, "NDATA"));
@@ -129,6 +123,17 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let title = ["EVENT_NAME", "EVENT_ID", "EVENT_DATE_YYYYMMDD"].map(|key| header.text(key)).join(" ");
     let first_sample = header.find("DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS").and_then(|(_, date)| seconds_of(date));
     Ok(RecordFile { title: tidy(&title), station, component: header.text("STREAM"), declared, first_sample, ..file })
+}
+
+/// The unit of a file that names none, cm/s². The peak that the header states may say that the samples are velocities or displacements.
+fn unit_by_peak(header: &Header, lines: &[&str], remedy: &'static str) -> Result<AccelerationUnit, RecordError> {
+    let peak = |begins: &str| header.entries.iter().find(|(_, key, _)| key.starts_with(begins));
+    match peak("PGV_").or_else(|| peak("PGD_")).filter(|_| peak("PGA_").is_none()) {
+        Some((line, ..)) => {
+            Err(Entry { line: *line, text: lines[*line - 1], remedy }.quoted("this is no acceleration:"))
+        }
+        None => Ok(AccelerationUnit::CentimetrePerSecondSquared),
+    }
 }
 
 /// Half a unit of the last printed digit.

@@ -3,8 +3,7 @@
 //! A unit stands in brackets (`a [m/s2]`), at the end of a name (`time_ms`, `Acc in g`), or in a row of units below the names. A name that
 //! says no quantity (`h1`, `NS`, `n`) may be anything: only its unit tells.
 
-use super::statement::is_multiplied;
-use crate::unit::AccelerationUnit;
+use crate::unit::{AccelerationUnit, is_factor};
 
 /// What a column holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,8 +21,10 @@ const SPECTRAL: [&str; 12] = [
     "period", "périod", "períod", "frequ", "fréqu", "frecu", "spectr", "spektr", "espectr", "spettr", "pseudo",
     "fourier",
 ];
-/// Words that only spectra have: frequencies, natural periods and ordinates.
-const ORDINATES: [&str; 12] = ["freq", "tn", "sa", "sv", "sd", "psa", "psv", "psd", "se", "sae", "sve", "sde"];
+/// Words that only spectra have: frequencies and ordinates.
+const ORDINATES: [&str; 10] = ["freq", "sa", "sv", "sd", "psa", "psv", "psd", "sae", "sve", "sde"];
+/// Names of columns of spectra as building codes write them. `SE` is a direction.
+const OF_CODES: [&str; 4] = ["Se", "S_e", "Tn", "T_n"];
 /// Unit of frequencies.
 const HERTZ: &str = "hz";
 /// Words that make a time a number of rows, or a point in time of the clock: `Time step`, `Time index`.
@@ -40,6 +41,14 @@ const ACCELERATION: &str = "acc";
 const SHORT_ACCELERATIONS: [&str; 2] = ["a", "ag"];
 /// Beginnings of words for velocity, displacement and force.
 const OTHERS: [&str; 10] = ["vel", "disp", "force", "geschw", "versch", "kraft", "vitesse", "dépl", "despl", "spost"];
+
+/// Whether a text names a velocity or a displacement.
+pub fn names_other_motion(text: &str) -> bool {
+    let lower = text.to_lowercase();
+    let is_motion =
+        |word: &str| OTHERS.iter().any(|begin| word.starts_with(begin) && !["force", "kraft"].contains(begin));
+    lower.split(|c: char| !c.is_alphanumeric()).any(is_motion)
+}
 
 impl Quantity {
     /// The quantity that a name says. The first word that names a quantity decides; words of spectra go before all others.
@@ -83,19 +92,34 @@ pub fn second(unit: &str) -> Option<f64> {
 pub struct Heading {
     pub name: String,
     pub unit: String,
+    /// Text after the brackets of the unit, such as a direction: `Acc (g) NS`.
+    pub rest: String,
 }
 
 impl Heading {
     pub fn parse(text: &str) -> Heading {
         let text = text.trim().trim_matches(['"', '\'']).trim();
-        let (name, unit, rest) = unit_in_brackets(text)
-            .unwrap_or_else(|| unit_at_end(text).map_or((text, "", ""), |(name, unit)| (name, unit, "")));
-        let name = format!("{} {}", name.trim().trim_end_matches([',', '_', '/']), rest.trim());
-        // A unit with a factor is none that is known: `Acc [g]*10`.
-        let factor =
-            name.split_whitespace().find(|word| word.contains(['*', '×']) || is_multiplied(&word.to_lowercase()));
-        let unit = factor.map_or(unit.to_string(), |factor| format!("{factor} {unit}").trim_end().to_string());
-        Heading { name: name.trim().to_string(), unit }
+        let at_end = || unit_at_end(text).map_or((text, "", ""), |(name, unit)| (name, unit, ""));
+        let (name, unit, rest) = unit_in_brackets(text).unwrap_or_else(at_end);
+        let (name, rest) = (name.trim().trim_end_matches([',', '_', '/']), rest.trim());
+        // With a factor beside it the unit is another one, and none that is known: `Acc [g]*10`, `100*Acc (m/s2)`.
+        let words = || name.split_whitespace().chain(rest.split_whitespace());
+        let factors = || words().flat_map(|word| [word].into_iter().chain(word.split_inclusive('*')));
+        let unit = match factors().find(|word| is_factor(word)) {
+            Some(factor) => format!("{factor} {unit}").trim_end().to_string(),
+            None => unit.to_string(),
+        };
+        Heading { name: name.to_string(), unit, rest: rest.to_string() }
+    }
+
+    /// Name, and what stands behind the unit.
+    pub fn component(&self) -> String {
+        format!("{} {}", self.name, self.rest).trim().to_string()
+    }
+
+    /// Whether the column is one of a spectrum in the notation of building codes.
+    pub fn is_of_code(&self) -> bool {
+        OF_CODES.contains(&self.name.as_str())
     }
 
     /// The quantity of the column: by its name, else by its unit.
@@ -128,16 +152,20 @@ fn bare(text: &str) -> &str {
     text.trim().trim_start_matches(['[', '(']).split([']', ')']).next().unwrap_or("").trim()
 }
 
-/// The text before the brackets of the unit, the unit, and the text after them: of several brackets the last ones with a known unit, else the first ones.
-/// `Acceleration (E-W) (cm/s²)`, `a(t) [m/s2]`.
+/// The text before the brackets of the unit, the unit, and the text after them. Of several brackets they are the last ones with a known unit of what
+/// the text before the first ones names, else the first ones: `Acceleration (E-W) (cm/s²)`, `a(t) [m/s2]`, `Acceleration [g] (S)`.
 fn unit_in_brackets(text: &str) -> Option<(&str, &str, &str)> {
     let at = |open: usize| {
         let close = text[open..].find([']', ')']).map_or(text.len(), |length| open + length + 1);
         // The unit may have brackets of its own: `[cm/(s*s)]`.
         (&text[..open], bare(&text[open..]), text[close..].trim_start_matches([']', ')']))
     };
-    let is_known = |unit: &str| second(unit).is_some() || AccelerationUnit::parse(unit).is_some();
     let mut opens = text.match_indices(['[', '(']).map(|(open, _)| open);
+    let named = Quantity::of(&text[..opens.clone().next()?]);
+    let is_known = |unit: &str| {
+        named != Some(Quantity::Time) && AccelerationUnit::parse(unit).is_some()
+            || named != Some(Quantity::Acceleration) && second(unit).is_some()
+    };
     let known = opens.clone().rev().find(|open| is_known(at(*open).1));
     known.or_else(|| opens.next()).map(at)
 }
@@ -150,8 +178,10 @@ fn unit_at_end(text: &str) -> Option<(&str, &str)> {
         Some(Quantity::Acceleration) => AccelerationUnit::parse(unit).is_some(),
         _ => false,
     };
-    let word = text.rsplit_once([' ', '_', ',']).map(|(name, unit)| (name.trim_end_matches(" in"), unit));
-    let word = word.filter(|(name, _)| name.len() > 2 || Quantity::of(name) == Some(Quantity::Time));
+    let word = text
+        .rsplit_once([' ', '_', ','])
+        .filter(|(name, _)| name.len() > 2 || Quantity::of(name) == Some(Quantity::Time));
+    let word = word.map(|(name, unit)| (name.trim_end_matches(" in"), unit));
     let parted = |sign: char| text.split_once(sign);
     [word, parted('/'), parted('.')].into_iter().flatten().find(fits)
 }
@@ -183,10 +213,10 @@ pub fn headings(text: &str, above: Option<&str>) -> Vec<Heading> {
             || before.is_some() && before == after
     };
     let with_unit = |(name, unit): (&String, &&str)| {
-        let Heading { name, unit: own } = Heading::parse(name);
+        let Heading { name, unit: own, rest } = Heading::parse(name);
         // Two units are none: the table is refused where the column is read.
         let unit = if is_same(&own, unit) { unit.to_string() } else { format!("{own} and {unit}") };
-        Heading { name, unit }
+        Heading { name, unit, rest }
     };
     names.iter().zip(&units).map(with_unit).collect()
 }
@@ -260,11 +290,20 @@ mod tests {
             ("Beschl./(m/s²)", Some(Acceleration), "m/s²"),
             ("Time.ms", Some(Time), "ms"),
             ("acc_m/s2", Some(Acceleration), "m/s2"),
+            ("Acceleration [g] (S)", Some(Acceleration), "g"),
+            ("NS (g) disp. corrected", Some(Acceleration), "g"),
+            ("a in g", Some(Acceleration), "g"),
+            ("ag in m/s2", Some(Acceleration), "m/s2"),
+            ("X1 (g)", Some(Acceleration), "g"),
+            ("Acc 17/01/1994 (g)", Some(Acceleration), "g"),
+            ("Acc 1/2 (g)", Some(Acceleration), "g"),
+            ("Acc* (g)", Some(Acceleration), "g"),
+            ("SE (g)", Some(Acceleration), "g"),
             ("Acc [g]*10", Some(Acceleration), "*10 g"),
             ("Acc x10 (m/s2)", Some(Acceleration), "x10 m/s2"),
-            ("100*Acc (m/s2)", Some(Acceleration), "100*Acc m/s2"),
+            ("100*Acc (m/s2)", Some(Acceleration), "100* m/s2"),
             ("f (Hz)", Some(Spectrum), "Hz"),
-            ("Se (g)", Some(Spectrum), "g"),
+            ("Sae (g)", Some(Spectrum), "g"),
         ] {
             let heading = Heading::parse(text);
             assert_eq!((heading.quantity(), heading.unit.as_str()), (quantity, unit), "{text}");
@@ -273,7 +312,7 @@ mod tests {
 
     #[test]
     fn a_row_of_units_belongs_to_the_names_above() {
-        let own = |name: &str, unit: &str| Heading { name: name.into(), unit: unit.into() };
+        let own = |name: &str, unit: &str| Heading { name: name.into(), unit: unit.into(), rest: String::new() };
         let expected = [own("Time", "s"), own("Acc", "g")];
         for (units, names) in [("s,g", "Time,Acc"), ("(s) (g)", "Time Acc"), ("[s];[g]", "Time;Acc")] {
             assert_eq!(headings(units, Some(names)), expected, "{units}");

@@ -77,7 +77,7 @@ fn by_name(line: &str, (_, names): Place) -> Option<&str> {
     let name = names.iter().find(|name| line.to_ascii_lowercase().starts_with(**name))?;
     let rest = line[name.len()..].trim_start_matches(|c: char| c.is_ascii_alphabetic() || c == '.').trim_start();
     let after_unit = rest.strip_prefix('(').and_then(|rest| rest.split_once(')'));
-    Some(after_unit.map_or(rest, |(_, value)| value).trim_start_matches([' ', ':', '=']))
+    Some(after_unit.map_or(rest, |(_, value)| value).trim_start_matches([' ', ':', '=', ',', ';']))
 }
 
 /// The header and where it begins.
@@ -93,7 +93,7 @@ impl<'t> Header<'t> {
         let named = (self.first..end).find(|index| has_name(self.lines[*index], place));
         let index = named.unwrap_or(self.first + place.0 - 1);
         let line = self.lines.get(index)?;
-        let value = match line.split_once(['\t', ',', ';']) {
+        let value = match line.split_once('\t') {
             Some((_, value)) => value,
             None => by_column(line).or_else(|| by_name(line, place)).unwrap_or(""),
         };
@@ -159,9 +159,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     file.compare_peak(peak, PEAK_BOUNDS, options.lenient)?;
     let component = header.find(DIRECTION).map(|(_, value)| direction(value)).unwrap_or_default();
     if component.contains(BOREHOLE) {
-        file.warnings.push(
-            "the instrument is in a borehole, not at the surface, whose files end in 2 (.EW2, .NS2, .UD2)".into(),
-        );
+        file.warnings.push("the instrument is in a borehole; files of the surface end in 2 (.EW2, .NS2, .UD2)".into());
     }
     let first_sample = header.find(FIRST_SAMPLE).and_then(|(_, date)| seconds_of(date));
     Ok(RecordFile { title: header.text(ORIGIN), station: header.text(STATION), component, first_sample, ..file })

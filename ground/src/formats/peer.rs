@@ -117,7 +117,7 @@ fn count_and_interval(line: &str) -> (Option<f64>, Option<f64>) {
 fn unit(above: &[&str], options: &TextOptions) -> Result<Option<(usize, AccelerationUnit)>, RecordError> {
     for (index, text) in above.iter().enumerate().rev() {
         let entry = |remedy: &'static str| Entry { line: index + 1, text, remedy };
-        let upper = tidy(text).to_ascii_uppercase().replace("UNITS=", "UNITS =").replace(" / ", "/");
+        let upper = tidy(text).to_ascii_uppercase().replace("UNITS=", "UNITS =").replace(" / S", "/S");
         let after_units =
             ["UNITS OF", "UNITS IN", "UNITS:", "UNITS ="].iter().find_map(|words| upper.split_once(words));
         let series = ["TIME SERIES", "TIME HISTORY", "TIME-SERIES", "TIME-HISTORY", "TIME HISTORIES"];
@@ -136,10 +136,10 @@ fn unit(above: &[&str], options: &TextOptions) -> Result<Option<(usize, Accelera
         let name = match after_units {
             // Old headers continue after the unit: `UNITS OF G. FILTER POINTS: ...`.
             Some((_, rest)) => {
-                let mut words = rest.split([' ', ',', ';', ':']).filter(|word| !word.is_empty());
-                let (first, next) = (words.next(), words.next());
+                let words: Vec<&str> = rest.split([' ', ',', ';', ':']).filter(|word| !word.is_empty()).collect();
                 // A unit with a factor is none that is known: `UNITS OF G X 1000`.
-                if next.is_some_and(|next| statement::is_factor(&next.to_lowercase())) { Some(rest) } else { first }
+                let has_factor = words.get(1..).is_some_and(statement::factor_follows);
+                if has_factor { Some(rest) } else { words.first().copied() }
             }
             // `(G'S)`, or `... IN CM/S/S`.
             None => {

@@ -149,9 +149,9 @@ fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, RecordError> {
 
 /// The lines of a text that ends them with LF, CRLF, or CR alone.
 fn lines(text: &str) -> Vec<&str> {
-    let count = text.bytes().filter(|byte| b"\r\n".contains(byte)).count();
     // The slices of short lines take more memory than their text: no more are reserved than needed.
-    let mut lines = Vec::with_capacity(count + 1);
+    let ends = |sign: char| text.matches(sign).count();
+    let mut lines = Vec::with_capacity(1 + if text.contains('\n') { ends('\n') } else { ends('\r') });
     let text = text.strip_suffix(['\n', '\r']).unwrap_or(text);
     lines.extend(text.split('\n').flat_map(|line| line.trim_end_matches('\r').split('\r')));
     lines

@@ -5,7 +5,7 @@ use super::heading::second;
 use super::numbers::number;
 use crate::error::RecordError;
 use crate::options::TextOptions;
-use crate::unit::AccelerationUnit;
+use crate::unit::{AccelerationUnit, is_factor};
 
 /// Lines among which the line with the number of samples is sought.
 pub const HEADER_LINES: usize = 10;
@@ -32,52 +32,44 @@ pub fn interval(line: &str) -> Option<f64> {
     Some(value * second).filter(|interval| *interval > 0.0)
 }
 
-/// The units of acceleration that a line states: in brackets, after `in` or `units`, or by a name that is nothing but a unit (`cm/s2`). A unit beside
-/// a number or a factor belongs to that number: `peak 350 cm/s2`, `10^-2 m/s2`, `% of g`, `g / 10`. Gravity has a unit of its own.
+/// The units of acceleration that a line states: in brackets, after `in`, `of` or `units`, or by a name that is nothing but a unit (`cm/s2`). A unit beside
+/// a number or a factor belongs to that number: `peak 350 cm/s2`, `10^-2 m/s2`, `% of g`, `g / 10`, `acceleration of gravity 9.81 (m/s2)`.
 fn units_of(line: &str) -> Vec<AccelerationUnit> {
-    if line.to_ascii_lowercase().contains("gravity") {
-        return Vec::new();
-    }
     let is_end = |c: char| c.is_whitespace() || ",;:=\"'".contains(c);
     // `cm / s / s` is one unit.
-    let line = line.replace(" / ", "/");
+    let line = line.replace(" / s", "/s").replace(" / S", "/S");
+    let is_of_gravity = line.to_ascii_lowercase().contains("gravity");
     let words: Vec<&str> = line.split(is_end).filter(|word| !word.is_empty()).collect();
     let is_number = |place: usize| words.get(place).is_some_and(|word| number(word).is_some());
-    let lower = |place: Option<usize>| {
-        place.and_then(|place| words.get(place)).map_or(String::new(), |word| word.to_lowercase())
-    };
+    let before = |place: usize, back: usize| place.checked_sub(back).map_or("", |place| words[place]);
     let stated = |place: usize| {
         let word = words[place];
         let in_brackets = word.starts_with(['[', '(']);
-        let [last, before] = [2, 1].map(|back| lower(place.checked_sub(back)));
-        let named = in_brackets
-            || ["in", "unit", "units"].contains(&before.as_str())
-            || before == "of" && WHOLE.contains(&last.as_str())
-            || word.contains('/');
-        let of_number = is_number(place + 1) || (!in_brackets && place > 0 && is_number(place - 1));
-        let has_factor = is_factor(&lower(Some(place + 1))) || is_factor(&before) || before == "of" && is_factor(&last);
+        let last = before(place, 1).to_ascii_lowercase();
+        let named = in_brackets || ["in", "unit", "units", "of"].contains(&last.as_str()) || word.contains('/');
+        let follows_number = place > 0 && is_number(place - 1) && (!in_brackets || is_of_gravity);
+        let share = if last == "of" { before(place, 2) } else { before(place, 1) };
+        let has_factor = is_share(share) || is_factor(share) || factor_follows(&words[place + 1..]);
         let name = word.trim_matches(['[', '(', ']', ')', '.']);
-        AccelerationUnit::parse(name).filter(|_| named && !of_number && !has_factor)
+        AccelerationUnit::parse(name).filter(|_| named && !is_number(place + 1) && !follows_number && !has_factor)
     };
     (0..words.len()).filter_map(stated).collect()
 }
 
-/// Words before `of` and a unit that state it whole.
-const WHOLE: [&str; 8] = ["unit", "units", "fraction", "fractions", "term", "terms", "multiple", "multiples"];
-
-/// Whether a word is a factor of a unit: `10^-2`, `x100`, `*`, `%`, `percent`, `hundredths`.
-pub fn is_factor(word: &str) -> bool {
-    is_multiplied(word)
-        || ["*", "x", "×", "^", "/", "%"].contains(&word)
+/// Whether a word before a unit, or before `of` and a unit, makes it a part of that unit.
+fn is_share(word: &str) -> bool {
+    let word = word.to_ascii_lowercase();
+    word == "%"
         || ["percent", "tenths", "hundredths", "thousandths", "millionths"].iter().any(|begin| word.starts_with(begin))
 }
 
-/// Whether a word is a number with a sign of multiplication, division or a power: `x100`, `100*`, `*10`, `10^-2`, `1/100`.
-pub fn is_multiplied(word: &str) -> bool {
-    let is_sign = |c: char| "*x×^/".contains(c);
-    word.contains(is_sign)
-        && word.contains(|c: char| c.is_ascii_digit())
-        && word.chars().all(|c| is_sign(c) || c.is_ascii_digit() || "+-.".contains(c))
+/// Whether the words behind a unit begin with a factor: `/ 10`, `x 1000`, `*100`.
+pub fn factor_follows(words: &[&str]) -> bool {
+    match words {
+        [sign, factor, ..] if ["x", "X", "*", "×", "/"].contains(sign) => number(factor).is_some(),
+        [factor, ..] => is_factor(factor),
+        [] => false,
+    }
 }
 
 /// The units that lines state, each with the number of its line, from 1.
@@ -140,6 +132,14 @@ mod tests {
             ("in units of g", "g"),
             ("as fractions of g", "g"),
             ("in meters/second^2", "m/s²"),
+            ("acceleration in g, X direction", "g"),
+            ("El Centro, X (g)", "g"),
+            ("acc (g) 18/05/1940", "g"),
+            ("Acceleration in units of gravity (g)", "g"),
+            ("units: g (gravity)", "g"),
+            ("Acceleration / (m/s2)", "m/s²"),
+            ("Time / [s], Acc / [g]", "g"),
+            ("acceleration as parts of g", "g"),
             ("acc [m/s^2]", "m/s²"),
             ("m/s^2", "m/s²"),
             ("NPTS=1991 DT=0.01 UNITS=M/S2", "m/s²"),
@@ -157,7 +157,19 @@ mod tests {
             assert_eq!(one(TextOptions { units: Some(unit), ..TextOptions::default() }), Ok(Some(unit)));
         }
         assert_eq!(one(TextOptions { lenient: true, ..TextOptions::default() }), Ok(Some(both[0].1)));
-        for text in ["station G", "peak 350 cm/s2", "PGA (g): 0.3", "velocity in m/s", ""] {
+        for text in [
+            "in % of g",
+            "10^-2 m/s2",
+            "in g / 10",
+            "in m/s2 x 100",
+            "hundredths of g",
+            "acceleration of gravity: 9.81 (m/s2)",
+            "station G",
+            "peak 350 cm/s2",
+            "PGA (g): 0.3",
+            "velocity in m/s",
+            "",
+        ] {
             assert_eq!(of(text), None, "{text}");
         }
     }

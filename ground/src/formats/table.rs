@@ -15,10 +15,11 @@ mod rows;
 mod times;
 
 use super::header::{Entry, brief, listed, tidy};
-use super::heading::{Heading, Quantity};
+use super::heading::{Heading, Quantity, names_other_motion};
 use super::numbers::Samples;
 use super::record_file::{Format, RecordFile};
 use super::statement;
+use crate::component::is_component;
 use crate::error::RecordError;
 use crate::options::TextOptions;
 use crate::unit::AccelerationUnit;
@@ -46,7 +47,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let unit = unit(&rows, chosen, options, &mut warnings)?;
     let (begins, dt) = times::begin_and_interval(&rows, chosen, options, &mut warnings)?;
     warnings.extend(begins.and_then(|begins| late_start(begins, dt)));
-    warnings.extend(other_quantity_in_remarks(lines, &rows, options));
+    warnings.extend(other_motion_in_remarks(lines, &rows, options));
     warnings.extend(several_parts(&rows));
     if headings.is_empty() && begins.is_none() && rows.columns >= FEWEST_OF_WRAPPED {
         let (place, columns) = (chosen + 1, rows.columns);
@@ -61,25 +62,29 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let values: Vec<f64> = (0..rows.lines.len()).map(|row| rows.at(row, chosen)).collect();
     let samples = Samples { values, cut: false, warnings };
     let file = RecordFile::of(Format::Table, unit, unit.in_si(options.gravity), dt, samples);
-    let component = headings.get(chosen).map(|heading| tidy(&heading.name)).unwrap_or_default();
+    let component = headings.get(chosen).map(|heading| tidy(&heading.component())).unwrap_or_default();
     Ok(RecordFile { title: title(lines), component, first_sample: begins, ..file })
 }
 
-/// Refuses samples that fill rows of a few columns, if each column has a name: these are components.
+/// Refuses samples that fill rows of a few columns, if each column has the name of a component.
 fn refuse_names_of_all(rows: &Rows) -> Result<(), RecordError> {
     let (count, columns) = (rows.headings.1.len(), rows.in_first_row);
     if !rows.fills_rows || count != columns || !(2..FEWEST_OF_WRAPPED).contains(&columns) {
         return Ok(());
     }
     let names: Vec<&str> = rows.headings.1.iter().map(|heading| heading.name.as_str()).collect();
+    if !names.iter().all(|name| is_component(name)) {
+        return Ok(());
+    }
     let remedy = "choose one of them with `column`, or skip the lines above the samples with `skip_rows`";
-    Err(rows.entry(remedy).wrong(format!("each of the {columns} columns has a name ({})", listed(&names))))
+    Err(rows.entry(remedy).wrong(format!("each of the {columns} columns is a component ({})", listed(&names))))
 }
 
 /// Refuses a table of a spectrum: a column has a period, a frequency or a spectral ordinate, and no column is surely a time.
 fn refuse_spectrum(rows: &Rows) -> Result<(), RecordError> {
     let headings = &rows.headings.1;
-    let spectral = headings.iter().find(|heading| heading.quantity() == Some(Quantity::Spectrum));
+    let is_spectral = |heading: &&Heading| heading.quantity() == Some(Quantity::Spectrum) || heading.is_of_code();
+    let spectral = headings.iter().find(is_spectral);
     let Some(spectral) = spectral.filter(|_| !headings.iter().any(Heading::is_surely_time)) else { return Ok(()) };
     let remedy = "give the history of the acceleration, with its times in a column called `time`";
     let problem = format!("column `{}` is one of a spectrum, which is no ground motion", brief(&spectral.name));
@@ -101,16 +106,16 @@ fn refuse_other_quantity(rows: &Rows, chosen: usize) -> Result<(), RecordError> 
     }
 }
 
-/// Warning that remarks above the numbers name another quantity, and none names an acceleration.
-fn other_quantity_in_remarks(lines: &[&str], rows: &Rows, options: &TextOptions) -> Option<String> {
+/// Warning that a remark above the numbers names a velocity or a displacement where nothing in the file says that they are accelerations.
+fn other_motion_in_remarks(lines: &[&str], rows: &Rows, options: &TextOptions) -> Option<String> {
     let header = lines.iter().enumerate().take(rows.lines[0] - 1).skip(options.skip_rows);
-    let remarks = header.filter(|(_, line)| line.trim_start().starts_with(REMARK));
-    let quantities: Vec<(usize, Quantity)> =
-        remarks.filter_map(|(index, line)| Some((index + 1, Quantity::of(line)?))).collect();
-    let is_acceleration = |(_, quantity): &(usize, Quantity)| *quantity == Quantity::Acceleration;
-    let other = quantities.iter().find(|(_, quantity)| [Quantity::Other, Quantity::Spectrum].contains(quantity));
-    let (line, _) = other.filter(|_| !quantities.iter().any(is_acceleration))?;
-    Some(format!("line {line} names another quantity than an acceleration; are the numbers accelerations?"))
+    let mut remarks = header.filter(|(_, line)| line.trim_start().starts_with(REMARK));
+    let is_acceleration = |line: &&str| Quantity::of(line) == Some(Quantity::Acceleration);
+    let says_so = !rows.stated_units.is_empty()
+        || !rows.headings.1.is_empty()
+        || lines[..rows.lines[0] - 1].iter().any(is_acceleration);
+    let (index, _) = remarks.find(|(_, line)| !says_so && names_other_motion(line))?;
+    Some(format!("line {} names another motion than an acceleration; are the numbers accelerations?", index + 1))
 }
 
 /// Warning that blank lines or remarks part the numbers of a single column into a few parts: they may be several records.
@@ -143,7 +148,7 @@ fn unit(
     if let Some(heading) = rows.headings.1.get(chosen).filter(|heading| !heading.unit.is_empty()) {
         let entry = rows.entry("choose another column, or write [g], [m/s2] or [cm/s2]");
         let unknown = || {
-            let Heading { name, unit } = heading;
+            let Heading { name, unit, .. } = heading;
             let (unit, name) = (brief(unit), brief(name));
             entry.wrong(format!("`{unit}` of column `{name}` is no unit of acceleration that is known"))
         };

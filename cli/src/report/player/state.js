@@ -53,7 +53,7 @@ function linear(list, { frame, share }) {
 }
 
 // Whether a block flies above the one below in the interval that begins with a frame.
-const flies = (block, frame) => run.joints !== null && [frame, frame + 1].some(at => run.joints[block][1][at] > FLIES);
+const isInFlight = (block, frame) => run.joints !== null && [frame, frame + 1].some(at => run.joints[block][1][at] > FLIES);
 
 // Angles at a place: those of the frame, or the cubic through both frames with their rates. Between coarse frames the cubic may
 // cross where the blocks cannot: there they touch, unless they fly.
@@ -65,7 +65,7 @@ function anglesAt({ frame, step, share: s }) {
     const rate = run.omega[block];
     let angle = r * r * (1 + 2 * s) * list[frame] + s * s * (3 - 2 * s) * list[frame + 1]
       + step * s * r * (r * rate[frame] - s * rate[frame + 1]);
-    if (!flies(block, frame) && (signs[block] === 0 && block > 0 || signs[block] * (angle - below) < 0)) angle = below;
+    if (!isInFlight(block, frame) && (signs[block] === 0 && block > 0 || signs[block] * (angle - below) < 0)) angle = below;
     return below = angle;
   });
 }
@@ -76,7 +76,7 @@ function jointsAt(place) {
   const { frame, share } = place;
   return run.joints && run.joints.map((parts, block) => {
     const [here, there] = [frame, frame + 1].map(at => at <= last ? run.patterns[run.pattern[at]].signs[block] : 0);
-    if (share === 0 || here === there || !flies(block, frame)) return parts.map(list => linear(list, place));
+    if (share === 0 || here === there || !isInFlight(block, frame)) return parts.map(list => linear(list, place));
     const angle = run.theta[block][frame + 1] - (block > 0 ? run.theta[block - 1][frame + 1] : 0);
     const [from, to] = [frame, frame + 1].map(at => parts.map(list => list[at]));
     const moved = to[2] - from[2], next = [to[0] + moved * Math.cos(angle), to[1] - moved * Math.sin(angle), from[2]];

@@ -114,7 +114,7 @@ pub fn refuse_thousands(body: &[(usize, &str)]) -> Result<(), RecordError> {
             }
         }
         if let Some((line, text)) = columns.iter().find_map(Column::with_thousands) {
-            let remedy = "write the numbers without signs of thousands";
+            let remedy = "write the numbers without signs of thousands, or take them as decimal signs with `lenient`";
             let [one, other] = [text.replace(sign, "."), text.replace(sign, "")];
             return Err(Entry { line, text, remedy }.wrong(format!("`{text}` may be {one} or {other}")));
         }

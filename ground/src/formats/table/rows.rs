@@ -55,6 +55,9 @@ impl Rows {
         let headings = last_text.map(|place| (body[place].0, headings(body[place].1, above)));
         let has_all = |(_, names): &(usize, Vec<Heading>)| names.iter().any(|heading| is_all(&heading.name));
         let fills_rows = options.column.as_deref().is_some_and(is_all) && !headings.as_ref().is_some_and(has_all);
+        if !options.lenient {
+            refuse_thousands(&body[first..])?;
+        }
         let mut rows =
             numbers(&body[first..], headings.as_ref().map_or(0, |(_, headings)| headings.len()), fills_rows)?;
         let header = options.skip_rows..rows.lines[0] - 1;
@@ -122,10 +125,14 @@ fn first_row(body: &[(usize, &str)]) -> Result<usize, RecordError> {
         None => is_text(text),
     };
     let mut first = counted + body[counted..].iter().take_while(is_header).count();
-    // A title may have a number (`El Centro 1940`); the numbers begin below the line that names the columns.
-    if first < body.len() && split(body[first].1, body[first].0).is_err() {
-        let is_named = |pair: &[(usize, &str)]| heads(pair[0].1, pair[1].1) && split(pair[1].1, pair[1].0).is_ok();
-        first = body[first..].windows(2).take(HEADER_LINES).position(is_named).map_or(first, |place| first + place + 1);
+    // A title may have a number (`El Centro 1940`). Where the last of the lines that begin with a letter names all columns, the numbers begin below it.
+    let below =
+        first + body[first..].iter().take_while(|(_, text)| text.trim_start().starts_with(char::is_alphabetic)).count();
+    if let (true, Some((line, row))) = (below > first, body.get(below))
+        && heads(body[below - 1].1, row)
+        && split(row, *line).is_ok()
+    {
+        first = below;
     }
     if first == body.len() {
         let word = words(first_text).next().expect("lines without words are left out");
@@ -145,7 +152,6 @@ fn numbers(body: &[(usize, &str)], names: usize, fills_rows: bool) -> Result<Row
     if !fills_rows {
         refuse_count(body)?;
     }
-    refuse_thousands(body)?;
     // The last of rows that samples fill may have one number, and nothing that parts it from others.
     let full = if fills_rows && body.len() > 1 { &body[..body.len() - 1] } else { body };
     let decimal_comma = has_decimal_commas(full) || is_column_with_commas(body, names);
@@ -180,6 +186,9 @@ fn numbers(body: &[(usize, &str)], names: usize, fills_rows: bool) -> Result<Row
         rows.lines.extend(std::iter::repeat_n(*line, if fills_rows { row.len() } else { 1 }));
         rows.values.extend(row);
     }
+    if rows.lines.is_empty() {
+        return Err(RecordError::Empty);
+    }
     rows.in_first_row = rows.columns;
     if fills_rows {
         refuse_times_among(&rows, body[0].0)?;
@@ -213,7 +222,7 @@ fn refuse_times_among(rows: &Rows, line: usize) -> Result<(), RecordError> {
         let numbers: Vec<f64> = values.iter().take(*columns).step_by(every).copied().collect();
         let step = numbers.get(1).map_or(0.0, |second| second - numbers[0]);
         let is_step = |pair: &[f64]| (pair[1] - pair[0] - step).abs() <= STEP_TOLERANCE * step;
-        numbers.len() >= FEWEST_RISING && step > 0.0 && numbers.windows(2).all(is_step)
+        numbers.len() >= FEWEST_TIMES_IN_ROW && step > 0.0 && numbers.windows(2).all(is_step)
     };
     if in_steps(1) || in_steps(2) {
         let which = if in_steps(1) { "the numbers" } else { "every second number" };
@@ -228,6 +237,9 @@ fn refuse_times_among(rows: &Rows, line: usize) -> Result<(), RecordError> {
     }
     Ok(())
 }
+
+/// Fewest numbers in a row that are times if they rise in equal steps: rows of samples are shorter, and samples may begin with a ramp.
+const FEWEST_TIMES_IN_ROW: usize = 20;
 
 /// Relative difference of equal steps of times, which have few digits.
 const STEP_TOLERANCE: f64 = 1e-3;
