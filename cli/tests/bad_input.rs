@@ -114,6 +114,8 @@ fn sizes_beyond_doubles_name_their_own_key() {
     refused(&scene("width = 0.8\nhalf_height = 1e308\n"), &["line 4", "`column.half_height`"]);
     refused(&scene("height = 1.6\nshape = \"drum\"\ndiameter = 1e308\n"), &["line 5", "`column.diameter`"]);
     refused("[[block]]\nhalf_width = 0.4\nhalf_height = 1e308\n", &["line 3", "half_height"]);
+    let tapered = "[[block]]\nbottom_half_width = 0.4\ntop_half_width = 1e200\nhalf_height = 1.0\n";
+    refused(tapered, &["line 3", "top_half_width"]);
 }
 
 #[test]

@@ -33,22 +33,25 @@ impl Direction {
 /// Whether a word of a name in capitals says that a component is vertical, and none says that it is horizontal: `ACC UD`, `U-D`, `UP-DOWN`, `CH3-UD`,
 /// `ACC_Z`, `ACCZ`, `VERTICAL`.
 fn has_vertical_word(name: &str) -> bool {
-    let name = ["U-D", "N-S", "E-W"]
-        .iter()
-        .fold(name.to_string(), |name, parted| name.replace(parted, &parted.replace('-', "")));
+    let whole = [("U-D", "UD"), ("D-U", "UD"), ("N-S", "NS"), ("E-W", "EW")];
+    let name = whole.iter().fold(name.to_string(), |name, (parted, whole)| name.replace(parted, whole));
     let words = || name.split(|c: char| !c.is_alphanumeric());
     let is_vertical = |word: &str| {
         let after = ["ACCELERATION", "ACCEL", "ACC"].iter().find_map(|start| word.strip_prefix(start));
         WORDS_FOR_VERTICAL.contains(&after.unwrap_or(word)) || word.starts_with("VERT")
     };
     WHOLE_FOR_VERTICAL.contains(&name.as_str())
-        || words().any(is_vertical) && !words().any(|word| HORIZONTAL.contains(&word) || word.starts_with("HOR"))
+        || words().any(is_vertical)
+            && !words().any(|word| ["NS", "EW", "H", "H1", "H2"].contains(&word) || word.starts_with("HOR"))
 }
 
 /// Whether a whole name is that of a component, as above the columns of a table: `NS`, `E-W`, `U-D`, `N00E`, `X`, `CANAL-1`, `090`.
 pub(crate) fn is_component(name: &str) -> bool {
     let upper: String = name.to_uppercase().chars().filter(|c| c.is_alphanumeric()).collect();
-    let own = upper.strip_prefix("ACC").unwrap_or(&upper);
+    let own = ["ACCELERATION", "ACCEL", "ACC"].iter().find_map(|start| upper.strip_prefix(start)).unwrap_or(&upper);
+    let own = own.strip_prefix('A').filter(|axis| ["X", "Y", "Z"].contains(axis)).unwrap_or(own);
+    let is_word =
+        ["NORTH", "EAST", "SOUTH", "WEST", "VERT", "LONG", "TRAN", "RADIAL"].iter().any(|begin| own.starts_with(begin));
     let (letters, digits) = own.split_at(own.find(|c: char| c.is_ascii_digit()).unwrap_or(own.len()));
     let is_number = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
     let is_azimuth = letters.is_empty() && digits.len() == CODE
@@ -58,6 +61,7 @@ pub(crate) fn is_component(name: &str) -> bool {
         || WHOLE_FOR_VERTICAL.contains(&own)
         || is_channel_code(own)
         || is_azimuth
+        || is_word
         || is_number && ["CH", "CHAN", "CHANNEL", "CANAL", "COMP", "H"].contains(&letters)
 }
 
@@ -77,7 +81,7 @@ const VERTICAL: [&str; 13] = ["UP", "DWN", "DOWN", "VERTICAL", "VERT", "VER", "V
 /// Words that name a vertical component wherever they stand in the name of a column.
 const WORDS_FOR_VERTICAL: [&str; 7] = ["UP", "DWN", "DOWN", "VRT", "UD", "V", "Z"];
 /// Whole names of a vertical component that have other meanings within longer names.
-const WHOLE_FOR_VERTICAL: [&str; 3] = ["AZ", "DU", "D-U"];
+const WHOLE_FOR_VERTICAL: [&str; 2] = ["AZ", "DU"];
 /// Endings of file names that name a horizontal component.
 const HORIZONTAL: [&str; 10] = ["NS", "EW", "N", "E", "H1", "H2", "L", "T", "X", "Y"];
 
@@ -246,9 +250,10 @@ mod tests {
         ] {
             assert_eq!(Direction::of("", name), Direction::Horizontal, "{name}");
         }
-        for name in
-            ["NS", "N-S", "E-W", "U-D", "V", "x", "N00E", "S45W", "CANAL-1", "Ch 2", "090", "HNZ", "acc_ns", "H1"]
-        {
+        for name in [
+            "NS", "N-S", "E-W", "U-D", "V", "x", "N00E", "S45W", "CANAL-1", "Ch 2", "090", "HNZ", "acc_ns", "H1", "ax",
+            "Accel NS", "North", "Vertical", "Tran",
+        ] {
             assert!(is_component(name), "{name}");
         }
         for name in ["El", "Centro", "Acceleration", "values", "g", "1940", "PGA"] {

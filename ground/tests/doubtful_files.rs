@@ -146,7 +146,7 @@ fn times_have_units_and_numbers_of_rows_are_none() {
     let warned = read(&whole, &in_g());
     assert!(warned.dt == 1.0 && warned.warnings[0].contains("1 s is hardly one"), "{warned:?}");
     assert!(agrees(&read(&whole, &TextOptions { dt: Some(0.01), ..in_g() }), G, 0.01));
-    for factor in [" / 10", " X 1000", "/10", " * 100"] {
+    for factor in [" / 10", " X 1000", "/10", " * 100", " *9.81"] {
         let text = format!("A\nB\nACCELERATION IN UNITS OF G{factor}\nNPTS= 20, DT= .01");
         let error = refused(&table(&text, value), &options());
         assert!(error.starts_with("line 3: ") && error.contains("unit"), "{factor}: {error}");
@@ -326,9 +326,16 @@ fn usual_headers_are_read_without_a_warning() {
     let ramp = (0..24).map(|k| format!(" {}{}", 0.1 * f64::from(k), if k % 8 == 7 { "\n" } else { "" }));
     assert_eq!(read(&ramp.collect::<String>(), &all).accel.len(), 24);
     // Thousands that are decimals after all.
-    let decimals = "time (s);acc (mg)\n0;-998\n1;1.013\n2;250\n";
+    let decimals = "time (s);acc (m/s2)\n0;-998\n1;1.013\n2;250\n";
     assert!(refused(decimals, &options()).contains("`lenient`"));
-    assert_eq!(read(decimals, &TextOptions { lenient: true, ..options() }).accel.len(), 3);
+    let file = read(decimals, &TextOptions { lenient: true, ..options() });
+    assert!(file.accel[1] == 1.013 && file.warnings[0].contains("`1.013` may be 1.013 or 1013"), "{file:?}");
+    // Text behind the unit belongs to the name.
+    let named = |column: &str| TextOptions { column: Some(column.into()), ..options() };
+    let both = table("Time (s),Acc (g) EW,Acc (g) NS", |k, a| format!("{},{a}", seconds(k, 0.0)));
+    assert!(agrees(&read(&both, &named("Acc NS")), G, 0.01));
+    assert!(refused(&both, &options()).contains("Acc EW, Acc NS"));
+    assert!(agrees(&read(&table("(s) Time,(g) Acc", seconds), &named("Acc")), G, 0.01));
 }
 
 /// A row of numbers with a damaged one is not passed over for headings below it.
@@ -365,7 +372,15 @@ fn tables_that_spreadsheets_and_reports_hold() {
         let error = refused(&table(&format!("time (s),{name}"), seconds), &options());
         assert!(error.contains("is no unit of acceleration"), "{name}: {error}");
     }
-    for names in ["T (s),Se (g)", "T [s],Spettro [g]", "f (Hz),Acc (m/s2)"] {
+    for names in [
+        "T (s),Se (g)",
+        "T [s],Se(T) [g]",
+        "T (s),S_e(T) (m/s2)",
+        "T (s),se (g)",
+        "T (s),Se NS (g)",
+        "T [s],Spettro [g]",
+        "f (Hz),Acc (m/s2)",
+    ] {
         let error = refused(&table(names, seconds), &options());
         assert!(error.contains("is one of a spectrum"), "{names}: {error}");
     }
@@ -419,7 +434,7 @@ fn samples_that_fill_row_after_row_are_read_as_all_columns() {
             "line 1: each of the 3 columns is a component (N-S, E-W, U-D)",
         ),
         (transposed(), "line 1: the numbers of the first row rise in equal steps: they are times and no samples"),
-        (pairs(), "line 1: every second number of the first row rise in equal steps"),
+        (pairs(), "line 1: half of the numbers of the first row rise in equal steps"),
     ] {
         let error = refused(&text, &all);
         assert!(error.starts_with(part), "{error}");

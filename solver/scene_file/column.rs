@@ -325,11 +325,15 @@ fn check_range(table: &Table, block: &Block) -> Result<(), Wrong> {
     }
     let problem = format!("mass {:e} kg and inertia {:e} kg m² leave the range of doubles", block.mass, block.inertia);
     // The one that is farthest from usual sizes, under the name that the table has for it.
-    let far = |value: f64| value.abs().log10().abs();
-    let width = block.bottom_half_width.max(block.top_half_width);
-    let widths = ["half_width", "width", "diameter", "bottom_half_width", "bottom_width", "bottom_diameter"];
-    let named: &[(f64, &[&str])] =
-        &[(far(block.half_height), &["half_height", "height"]), (far(width), &widths), (1.0, &["mass", "density"])];
+    let far = |value: f64| if value > 0.0 { value.log10().abs() } else { 0.0 };
+    let bottom = ["half_width", "width", "diameter", "bottom_half_width", "bottom_width", "bottom_diameter"];
+    let top = ["half_width", "width", "diameter", "top_half_width", "top_width", "top_diameter"];
+    let named: &[(f64, &[&str])] = &[
+        (far(block.half_height), &["half_height", "height"]),
+        (far(block.bottom_half_width), &bottom),
+        (far(block.top_half_width), &top),
+        (1.0, &["mass", "density"]),
+    ];
     let present = named.iter().filter_map(|(size, keys)| Some((*size, *keys.iter().find(|key| table.has(key))?)));
     let key = present.max_by(|a, b| a.0.total_cmp(&b.0)).map_or("half_height", |(_, key)| key);
     Err(table.wrong(key, problem, "give sizes, density or mass nearer to those of blocks"))

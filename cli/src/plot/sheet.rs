@@ -465,8 +465,10 @@ fn inside(drawn: Primitive, width: f64) -> Primitive {
 /// The numbers at the ticks of an axis, at those that are multiples of so many steps.
 fn numbers(axis: &Axis, every: u32) -> TickFormat {
     let axis = axis.clone();
+    // Counted from zero, or from the first tick of an axis that begins above it.
+    let first = if axis.range[0] > 0.0 { (axis.range[0] / axis.step - 1e-9).ceil() } else { 0.0 };
     TickFormat::Custom(Arc::new(move |value| {
-        let steps = (value / axis.step).round();
+        let steps = (value / axis.step).round() - first;
         if axis.numbers && steps % f64::from(every) == 0.0 { axis.number(value) } else { String::new() }
     }))
 }

@@ -97,7 +97,10 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let declared = Some(entry.count(count)?);
     let remedy = "use the acceleration file (.ACC), in cm/s^2, of the same record";
     let unit = match header.find("UNITS").or_else(|| header.find("UNIT")) {
-        None => options.units.map_or_else(|| unit_by_peak(&header, lines, remedy), Ok)?,
+        None => {
+            refuse_other_peak(&header, lines, remedy)?;
+            options.units.unwrap_or(AccelerationUnit::CentimetrePerSecondSquared)
+        }
         Some((line, text)) => Entry { line, text, remedy }.unit(text, options)?,
     };
     let (span, header_entry) = ((header.end, lines.len()), (entry.line, "NDATA"));
@@ -125,14 +128,14 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     Ok(RecordFile { title: tidy(&title), station, component: header.text("STREAM"), declared, first_sample, ..file })
 }
 
-/// The unit of a file that names none, cm/s². The peak that the header states may say that the samples are velocities or displacements.
-fn unit_by_peak(header: &Header, lines: &[&str], remedy: &'static str) -> Result<AccelerationUnit, RecordError> {
+/// Refuses a file without a unit whose header states the peak of a velocity or a displacement alone.
+fn refuse_other_peak(header: &Header, lines: &[&str], remedy: &'static str) -> Result<(), RecordError> {
     let peak = |begins: &str| header.entries.iter().find(|(_, key, _)| key.starts_with(begins));
     match peak("PGV_").or_else(|| peak("PGD_")).filter(|_| peak("PGA_").is_none()) {
         Some((line, ..)) => {
             Err(Entry { line: *line, text: lines[*line - 1], remedy }.quoted("this is no acceleration:"))
         }
-        None => Ok(AccelerationUnit::CentimetrePerSecondSquared),
+        None => Ok(()),
     }
 }
 

@@ -3,7 +3,7 @@
 //! A unit stands in brackets (`a [m/s2]`), at the end of a name (`time_ms`, `Acc in g`), or in a row of units below the names. A name that
 //! says no quantity (`h1`, `NS`, `n`) may be anything: only its unit tells.
 
-use crate::unit::{AccelerationUnit, is_factor};
+use crate::unit::{AccelerationUnit, has_factor};
 
 /// What a column holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,8 +23,6 @@ const SPECTRAL: [&str; 12] = [
 ];
 /// Words that only spectra have: frequencies and ordinates.
 const ORDINATES: [&str; 10] = ["freq", "sa", "sv", "sd", "psa", "psv", "psd", "sae", "sve", "sde"];
-/// Names of columns of spectra as building codes write them. `SE` is a direction.
-const OF_CODES: [&str; 4] = ["Se", "S_e", "Tn", "T_n"];
 /// Unit of frequencies.
 const HERTZ: &str = "hz";
 /// Words that make a time a number of rows, or a point in time of the clock: `Time step`, `Time index`.
@@ -101,15 +99,12 @@ impl Heading {
         let text = text.trim().trim_matches(['"', '\'']).trim();
         let at_end = || unit_at_end(text).map_or((text, "", ""), |(name, unit)| (name, unit, ""));
         let (name, unit, rest) = unit_in_brackets(text).unwrap_or_else(at_end);
-        let (name, rest) = (name.trim().trim_end_matches([',', '_', '/']), rest.trim());
         // With a factor beside it the unit is another one, and none that is known: `Acc [g]*10`, `100*Acc (m/s2)`.
-        let words = || name.split_whitespace().chain(rest.split_whitespace());
-        let factors = || words().flat_map(|word| [word].into_iter().chain(word.split_inclusive('*')));
-        let unit = match factors().find(|word| is_factor(word)) {
-            Some(factor) => format!("{factor} {unit}").trim_end().to_string(),
-            None => unit.to_string(),
-        };
-        Heading { name: name.to_string(), unit, rest: rest.to_string() }
+        let unit = if has_factor(name, rest) { format!("{} {unit} {}", name.trim(), rest.trim()) } else { unit.into() };
+        let (name, rest) = (name.trim().trim_end_matches([',', '_', '/']), rest.trim());
+        // `(s) Time`: the name stands behind.
+        let (name, rest) = if name.is_empty() { (rest, "") } else { (name, rest) };
+        Heading { name: name.to_string(), unit: unit.trim().to_string(), rest: rest.to_string() }
     }
 
     /// Name, and what stands behind the unit.
@@ -117,9 +112,15 @@ impl Heading {
         format!("{} {}", self.name, self.rest).trim().to_string()
     }
 
-    /// Whether the column is one of a spectrum in the notation of building codes.
-    pub fn is_of_code(&self) -> bool {
-        OF_CODES.contains(&self.name.as_str())
+    /// Whether the column has the natural periods of a spectrum in the notation of building codes.
+    pub fn is_natural_period(&self) -> bool {
+        ["Tn", "T_n"].contains(&self.name.as_str())
+    }
+
+    /// Whether the column may be the spectrum of building codes: `Se`, `S_e(T)`. `SE` is a direction as well.
+    pub fn may_be_code_spectrum(&self) -> bool {
+        let first = self.name.split(['(', ' ']).next().unwrap_or("");
+        ["se", "s_e"].contains(&first.to_lowercase().as_str())
     }
 
     /// The quantity of the column: by its name, else by its unit.
@@ -152,8 +153,9 @@ fn bare(text: &str) -> &str {
     text.trim().trim_start_matches(['[', '(']).split([']', ')']).next().unwrap_or("").trim()
 }
 
-/// The text before the brackets of the unit, the unit, and the text after them. Of several brackets they are the last ones with a known unit of what
-/// the text before the first ones names, else the first ones: `Acceleration (E-W) (cm/s²)`, `a(t) [m/s2]`, `Acceleration [g] (S)`.
+/// The text before the brackets of the unit, the unit, and the text after them: `Acceleration (E-W) (cm/s²)`, `a(t) [m/s2]`. Of several brackets the unit
+/// stands in the last that hold a known one; a unit of time does not count behind the name of an acceleration, nor the other way round:
+/// `Acceleration [g] (S)`. Where no unit is known it is the text in the first brackets.
 fn unit_in_brackets(text: &str) -> Option<(&str, &str, &str)> {
     let at = |open: usize| {
         let close = text[open..].find([']', ')']).map_or(text.len(), |length| open + length + 1);
@@ -198,7 +200,12 @@ pub fn headings(text: &str, above: Option<&str>) -> Vec<Heading> {
     };
     let own = cells(text);
     let units: Vec<&str> = own.iter().map(|cell| bare(cell.trim_matches('"'))).collect();
-    if !units.iter().all(|unit| is_unit(unit)) {
+    // `(s) Time` has a name behind its unit.
+    let is_whole = |cell: &String| {
+        let cell = cell.trim_matches('"').trim();
+        !cell.starts_with(['[', '(']) || cell.ends_with([']', ')'])
+    };
+    if !units.iter().all(|unit| is_unit(unit)) || !own.iter().all(is_whole) {
         return own.iter().map(|cell| Heading::parse(cell)).collect();
     }
     let names = above.map(cells).filter(|names| names.len() == units.len());
@@ -299,14 +306,58 @@ mod tests {
             ("Acc 1/2 (g)", Some(Acceleration), "g"),
             ("Acc* (g)", Some(Acceleration), "g"),
             ("SE (g)", Some(Acceleration), "g"),
-            ("Acc [g]*10", Some(Acceleration), "*10 g"),
-            ("Acc x10 (m/s2)", Some(Acceleration), "x10 m/s2"),
-            ("100*Acc (m/s2)", Some(Acceleration), "100* m/s2"),
+            ("Acc [g]*10", Some(Acceleration), "Acc g *10"),
+            ("Acc x10 (m/s2)", Some(Acceleration), "Acc x10 m/s2"),
+            ("100*Acc (m/s2)", Some(Acceleration), "100*Acc m/s2"),
+            ("X10 (g)", Some(Acceleration), "g"),
+            ("Acc 1/10 scale (g)", Some(Acceleration), "g"),
+            ("(g) Acc", Some(Acceleration), "g"),
             ("f (Hz)", Some(Spectrum), "Hz"),
             ("Sae (g)", Some(Spectrum), "g"),
         ] {
             let heading = Heading::parse(text);
             assert_eq!((heading.quantity(), heading.unit.as_str()), (quantity, unit), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_factor_beside_a_unit_makes_it_another() {
+        for text in [
+            "Acc [g] * 10",
+            "Acc (g) x 10",
+            "Acc (g) / 10",
+            "Acc x 10 (g)",
+            "Acc (g) *2",
+            "Acc in 0.01 g",
+            "Acc [g]*9.81",
+            "Acc (m/s2)/9.81",
+            "Acc*100 (g)",
+            "Acc 0.01*(m/s2)",
+            "Acc in % of g",
+            "Acc in percent of g",
+            "acc_percent_g",
+            "Acc 10^-2 (m/s2)",
+            "Acc 1/100 (g)",
+        ] {
+            assert_eq!(Heading::parse(text).acceleration(), None, "{text}: {:?}", Heading::parse(text));
+        }
+        for text in [
+            "X10 (g)",
+            "X1 (g)",
+            "Acc 1/10 scale (g)",
+            "Acc 17/01/1994 (g)",
+            "Acc 1/2 (g)",
+            "Acc* (g)",
+            "Sta. 12 (g)",
+            "Acc (g) x 2",
+            "acc_x_g",
+        ] {
+            assert_eq!(
+                Heading::parse(text).acceleration(),
+                Some(AccelerationUnit::G),
+                "{text}: {:?}",
+                Heading::parse(text)
+            );
         }
     }
 

@@ -181,7 +181,7 @@ pub fn is_text(row: &str) -> bool {
 }
 
 /// Whether a word is a printed `nan`, `inf` or `****`. It is not text: it must be refused, not skipped.
-fn is_undefined(word: &str) -> bool {
+pub fn is_undefined(word: &str) -> bool {
     let lower = word.trim_start_matches(['+', '-']).to_ascii_lowercase();
     ["nan", "inf", "infinity"].contains(&lower.as_str()) || lower.starts_with('*')
 }

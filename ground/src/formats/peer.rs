@@ -12,7 +12,7 @@
 //! the line with the count is the last one, among the first ten lines, that names NPTS. The unit is sought in the lines above it, and then in
 //! all lines above the numbers.
 
-use super::header::{Entry, number_after, tidy};
+use super::header::{Entry, brief, number_after, tidy};
 use super::heading::Quantity;
 use super::numbers::{Block, FixedWidth, is_remark, number, words};
 use super::record_file::{Format, RecordFile};
@@ -20,7 +20,7 @@ use super::statement::{self, HEADER_LINES, names_count};
 use super::table;
 use crate::error::RecordError;
 use crate::options::TextOptions;
-use crate::unit::AccelerationUnit;
+use crate::unit::{AccelerationUnit, has_factor};
 use std::iter;
 
 /// Columns of a row, used if blanks do not separate the numbers.
@@ -133,13 +133,21 @@ fn unit(above: &[&str], options: &TextOptions) -> Result<Option<(usize, Accelera
             let remedy = "use the acceleration file (.AT2) of the same record";
             return Err(entry(remedy).quoted("this is no acceleration:"));
         }
+        if upper.contains('%') || upper.contains("PERCENT") {
+            let remedy = "convert the record to g, m/s/s or cm/s/s and name that unit";
+            return Err(
+                entry(remedy).wrong(format!("a share of a unit is no unit that is known: `{}`", brief(text.trim())))
+            );
+        }
         let name = match after_units {
             // Old headers continue after the unit: `UNITS OF G. FILTER POINTS: ...`.
             Some((_, rest)) => {
-                let words: Vec<&str> = rest.split([' ', ',', ';', ':']).filter(|word| !word.is_empty()).collect();
+                let first = rest.split([' ', ',', ';', ':']).find(|word| !word.is_empty());
                 // A unit with a factor is none that is known: `UNITS OF G X 1000`.
-                let has_factor = words.get(1..).is_some_and(statement::factor_follows);
-                if has_factor { Some(rest) } else { words.first().copied() }
+                first.map(|unit| {
+                    let (before, after) = rest.split_once(unit).unwrap_or(("", ""));
+                    if has_factor(before, after) { rest } else { unit }
+                })
             }
             // `(G'S)`, or `... IN CM/S/S`.
             None => {

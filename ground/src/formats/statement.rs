@@ -5,7 +5,7 @@ use super::heading::second;
 use super::numbers::number;
 use crate::error::RecordError;
 use crate::options::TextOptions;
-use crate::unit::{AccelerationUnit, is_factor};
+use crate::unit::{AccelerationUnit, has_factor};
 
 /// Lines among which the line with the number of samples is sought.
 pub const HEADER_LINES: usize = 10;
@@ -32,45 +32,45 @@ pub fn interval(line: &str) -> Option<f64> {
     Some(value * second).filter(|interval| *interval > 0.0)
 }
 
-/// The units of acceleration that a line states: in brackets, after `in`, `of` or `units`, or by a name that is nothing but a unit (`cm/s2`). A unit beside
-/// a number or a factor belongs to that number: `peak 350 cm/s2`, `10^-2 m/s2`, `% of g`, `g / 10`, `acceleration of gravity 9.81 (m/s2)`.
+/// The units of acceleration that a line states: in brackets, after `in`, `units` or `units of`, or by a name that is nothing but a unit (`cm/s2`). A unit
+/// beside a number or a factor belongs to that number: `peak 350 cm/s2`, `10^-2 m/s2`, `% of g`, `g / 10`, `gravity (9.81 m/s2)`.
 fn units_of(line: &str) -> Vec<AccelerationUnit> {
     let is_end = |c: char| c.is_whitespace() || ",;:=\"'".contains(c);
     // `cm / s / s` is one unit.
     let line = line.replace(" / s", "/s").replace(" / S", "/S");
     let is_of_gravity = line.to_ascii_lowercase().contains("gravity");
-    let words: Vec<&str> = line.split(is_end).filter(|word| !word.is_empty()).collect();
-    let is_number = |place: usize| words.get(place).is_some_and(|word| number(word).is_some());
-    let before = |place: usize, back: usize| place.checked_sub(back).map_or("", |place| words[place]);
+    let mut end = 0;
+    let with_place = |part: &'_ str| -> Option<(usize, usize)> {
+        let begin = end;
+        end += part.len();
+        let length = part.trim_end_matches(is_end).len();
+        (length > 0).then_some((begin, begin + length))
+    };
+    let places: Vec<(usize, usize)> = line.split_inclusive(is_end).filter_map(with_place).collect();
+    let words: Vec<&str> = places.iter().map(|(begin, end)| &line[*begin..*end]).collect();
+    let bare = |word: &str| word.trim_matches(['[', '(', ']', ')']).to_ascii_lowercase();
+    let is_number = |place: usize| words.get(place).is_some_and(|word| number(&bare(word)).is_some());
+    let before = |place: usize, back: usize| place.checked_sub(back).map_or(String::new(), |place| bare(words[place]));
     let stated = |place: usize| {
         let word = words[place];
         let in_brackets = word.starts_with(['[', '(']);
-        let last = before(place, 1).to_ascii_lowercase();
-        let named = in_brackets || ["in", "unit", "units", "of"].contains(&last.as_str()) || word.contains('/');
+        let last = before(place, 1);
+        let named = in_brackets
+            || ["in", "unit", "units"].contains(&last.as_str())
+            || last == "of" && WHOLE.contains(&before(place, 2).as_str())
+            || word.contains('/');
         let follows_number = place > 0 && is_number(place - 1) && (!in_brackets || is_of_gravity);
-        let share = if last == "of" { before(place, 2) } else { before(place, 1) };
-        let has_factor = is_share(share) || is_factor(share) || factor_follows(&words[place + 1..]);
+        let (begin, end) = places[place];
+        let is_multiple = has_factor(&line[..begin], &line[end..]);
         let name = word.trim_matches(['[', '(', ']', ')', '.']);
-        AccelerationUnit::parse(name).filter(|_| named && !is_number(place + 1) && !follows_number && !has_factor)
+        AccelerationUnit::parse(name).filter(|_| named && !is_number(place + 1) && !follows_number && !is_multiple)
     };
     (0..words.len()).filter_map(stated).collect()
 }
 
-/// Whether a word before a unit, or before `of` and a unit, makes it a part of that unit.
-fn is_share(word: &str) -> bool {
-    let word = word.to_ascii_lowercase();
-    word == "%"
-        || ["percent", "tenths", "hundredths", "thousandths", "millionths"].iter().any(|begin| word.starts_with(begin))
-}
-
-/// Whether the words behind a unit begin with a factor: `/ 10`, `x 1000`, `*100`.
-pub fn factor_follows(words: &[&str]) -> bool {
-    match words {
-        [sign, factor, ..] if ["x", "X", "*", "×", "/"].contains(sign) => number(factor).is_some(),
-        [factor, ..] => is_factor(factor),
-        [] => false,
-    }
-}
+/// Words before `of` and a unit that state the unit.
+const WHOLE: [&str; 10] =
+    ["unit", "units", "fraction", "fractions", "term", "terms", "multiple", "multiples", "part", "parts"];
 
 /// The units that lines state, each with the number of its line, from 1.
 pub fn units<'t>(lines: impl Iterator<Item = (usize, &'t str)>) -> Vec<(usize, AccelerationUnit)> {
@@ -140,6 +140,10 @@ mod tests {
             ("Acceleration / (m/s2)", "m/s²"),
             ("Time / [s], Acc / [g]", "g"),
             ("acceleration as parts of g", "g"),
+            ("units: m/s**2", "m/s²"),
+            ("acceleration in g, 1/10 scale model", "g"),
+            ("acceleration (g) x 2 channels", "g"),
+            ("acceleration in g, x 090", "g"),
             ("acc [m/s^2]", "m/s²"),
             ("m/s^2", "m/s²"),
             ("NPTS=1991 DT=0.01 UNITS=M/S2", "m/s²"),
@@ -159,6 +163,14 @@ mod tests {
         assert_eq!(one(TextOptions { lenient: true, ..TextOptions::default() }), Ok(Some(both[0].1)));
         for text in [
             "in % of g",
+            "Kobe, acceleration (% of g)",
+            "[percent of g]",
+            "PGA 35% of g",
+            "one tenth of g",
+            "in g *9.81",
+            "in g /9.81",
+            "acceleration over gravity (9.81 m/s2), Kobe",
+            "courtesy of G. Smith",
             "10^-2 m/s2",
             "in g / 10",
             "in m/s2 x 100",

@@ -43,7 +43,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let chosen = acceleration_column(&rows, options)?;
     refuse_other_quantity(&rows, chosen)?;
     refuse_names_of_all(&rows)?;
-    let mut warnings = Vec::new();
+    let mut warnings: Vec<String> = rows.doubts.clone();
     let unit = unit(&rows, chosen, options, &mut warnings)?;
     let (begins, dt) = times::begin_and_interval(&rows, chosen, options, &mut warnings)?;
     warnings.extend(begins.and_then(|begins| late_start(begins, dt)));
@@ -72,7 +72,7 @@ fn refuse_names_of_all(rows: &Rows) -> Result<(), RecordError> {
     if !rows.fills_rows || count != columns || !(2..FEWEST_OF_WRAPPED).contains(&columns) {
         return Ok(());
     }
-    let names: Vec<&str> = rows.headings.1.iter().map(|heading| heading.name.as_str()).collect();
+    let names: Vec<String> = rows.headings.1.iter().map(Heading::component).collect();
     if !names.iter().all(|name| is_component(name)) {
         return Ok(());
     }
@@ -83,7 +83,12 @@ fn refuse_names_of_all(rows: &Rows) -> Result<(), RecordError> {
 /// Refuses a table of a spectrum: a column has a period, a frequency or a spectral ordinate, and no column is surely a time.
 fn refuse_spectrum(rows: &Rows) -> Result<(), RecordError> {
     let headings = &rows.headings.1;
-    let is_spectral = |heading: &&Heading| heading.quantity() == Some(Quantity::Spectrum) || heading.is_of_code();
+    let has_periods = headings.iter().any(|heading| heading.name == "T" || heading.is_natural_period());
+    let is_spectral = |heading: &&Heading| {
+        heading.quantity() == Some(Quantity::Spectrum)
+            || heading.is_natural_period()
+            || has_periods && heading.may_be_code_spectrum()
+    };
     let spectral = headings.iter().find(is_spectral);
     let Some(spectral) = spectral.filter(|_| !headings.iter().any(Heading::is_surely_time)) else { return Ok(()) };
     let remedy = "give the history of the acceleration, with its times in a column called `time`";
@@ -112,7 +117,7 @@ fn other_motion_in_remarks(lines: &[&str], rows: &Rows, options: &TextOptions) -
     let mut remarks = header.filter(|(_, line)| line.trim_start().starts_with(REMARK));
     let is_acceleration = |line: &&str| Quantity::of(line) == Some(Quantity::Acceleration);
     let says_so = !rows.stated_units.is_empty()
-        || !rows.headings.1.is_empty()
+        || rows.headings.1.iter().any(|heading| heading.quantity() == Some(Quantity::Acceleration))
         || lines[..rows.lines[0] - 1].iter().any(is_acceleration);
     let (index, _) = remarks.find(|(_, line)| !says_so && names_other_motion(line))?;
     Some(format!("line {} names another motion than an acceleration; are the numbers accelerations?", index + 1))
@@ -195,20 +200,21 @@ const FEWEST_OF_WRAPPED: usize = 4;
 fn acceleration_column(rows: &Rows, options: &TextOptions) -> Result<usize, RecordError> {
     let (headings, columns) = (rows.headings.1.as_slice(), rows.columns);
     let unclear = |column: &str| {
-        let names: Vec<&str> = headings.iter().map(|heading| heading.name.as_str()).collect();
+        let names: Vec<String> = headings.iter().map(Heading::component).collect();
         let known = if names.is_empty() { format!("1 to {columns}") } else { listed(&names) };
         RecordError::NoColumn { column: column.into(), known }
     };
     if let Some(name) = options.column.as_ref().filter(|_| !rows.fills_rows) {
         // By the name of the column, else by its whole heading, else by its number.
         let whole = Heading::parse(name);
-        let has_name = |place: &usize| headings[*place].name.eq_ignore_ascii_case(name.trim());
+        let is_name = |own: &str| own.eq_ignore_ascii_case(name.trim());
+        let has_name = |place: &usize| is_name(&headings[*place].component());
         let namesakes: Vec<usize> = (0..headings.len()).filter(has_name).collect();
         if namesakes.len() > 1 {
             let numbers: Vec<String> = namesakes.iter().map(|place| (place + 1).to_string()).collect();
             return Err(RecordError::Namesakes { column: name.trim().into(), numbers: numbers.join(" or ") });
         }
-        let named = namesakes.first().copied();
+        let named = namesakes.first().copied().or_else(|| headings.iter().position(|heading| is_name(&heading.name)));
         let named = named.or_else(|| headings.iter().position(|heading| *heading == whole));
         let numbered = || name.trim().parse::<usize>().ok()?.checked_sub(1).filter(|place| *place < columns);
         return named.or_else(numbered).ok_or_else(|| unclear(name));

@@ -6,6 +6,7 @@
 use crate::error::RecordError;
 use crate::formats::header::Entry;
 use crate::formats::numbers::{Word, comma_refused, has_decimal_comma, number, separator};
+use crate::options::TextOptions;
 
 /// A row without the blanks and semicolons at its end.
 fn cell(row: &str) -> &str {
@@ -98,7 +99,8 @@ fn may_have_thousands(word: &str, sign: char) -> bool {
 }
 
 /// Refuses a table with a column in which commas, or points, may all be signs of thousands: it has whole numbers from 100 to 999 as well, and nothing else.
-pub fn refuse_thousands(body: &[(usize, &str)]) -> Result<(), RecordError> {
+/// Points are decimal with lenient options; the result is then a warning.
+pub fn refuse_thousands(body: &[(usize, &str)], options: &TextOptions) -> Result<Option<String>, RecordError> {
     for sign in [',', '.'] {
         let is_end = |c: char| c == '"' || c != sign && separator(c);
         let mut columns: Vec<Column> = Vec::new();
@@ -114,12 +116,18 @@ pub fn refuse_thousands(body: &[(usize, &str)]) -> Result<(), RecordError> {
             }
         }
         if let Some((line, text)) = columns.iter().find_map(Column::with_thousands) {
-            let remedy = "write the numbers without signs of thousands, or take them as decimal signs with `lenient`";
             let [one, other] = [text.replace(sign, "."), text.replace(sign, "")];
-            return Err(Entry { line, text, remedy }.wrong(format!("`{text}` may be {one} or {other}")));
+            let problem = format!("`{text}` may be {one} or {other}");
+            let entry = |remedy: &'static str| Entry { line, text, remedy };
+            return match sign {
+                ',' => Err(entry("write the numbers without signs of thousands").wrong(problem)),
+                _ => entry("write the numbers without signs of thousands, or take points as decimal with `lenient`")
+                    .leniently(problem, options)
+                    .map(Some),
+            };
         }
     }
-    Ok(())
+    Ok(None)
 }
 
 /// What the cells of a column are, as far as signs of thousands are concerned.
@@ -160,7 +168,7 @@ mod tests {
     fn signs_of_thousands_are_refused_and_decimals_are_not() {
         let refused = |rows: &[&str]| {
             let body: Vec<(usize, &str)> = rows.iter().enumerate().map(|(place, row)| (place + 1, *row)).collect();
-            refuse_thousands(&body).is_err()
+            refuse_thousands(&body, &TextOptions::default()).is_err()
         };
         for rows in [
             &["0\t\"-998\"", "5\t\"-1,013\""][..],

@@ -10,7 +10,7 @@ use super::decimal_comma::{
 use crate::error::RecordError;
 use crate::formats::header::Entry;
 use crate::formats::heading::{Heading, Quantity, headings};
-use crate::formats::numbers::{Word, is_text, number, refused, split, words};
+use crate::formats::numbers::{Word, is_text, is_undefined, number, refused, split, words};
 use crate::formats::statement::{self, HEADER_LINES, names_count};
 use crate::options::TextOptions;
 use crate::unit::AccelerationUnit;
@@ -32,6 +32,8 @@ pub struct Rows {
     pub fills_rows: bool,
     /// Numbers of the first row.
     pub in_first_row: usize,
+    /// Warnings, a sentence each.
+    pub doubts: Vec<String>,
     /// Lines, from 1, and units that the text above the numbers states, the headings excepted.
     pub stated_units: Vec<(usize, AccelerationUnit)>,
     /// Lines, from 1, and sampling intervals `[s]` that the text above the numbers states.
@@ -55,9 +57,7 @@ impl Rows {
         let headings = last_text.map(|place| (body[place].0, headings(body[place].1, above)));
         let has_all = |(_, names): &(usize, Vec<Heading>)| names.iter().any(|heading| is_all(&heading.name));
         let fills_rows = options.column.as_deref().is_some_and(is_all) && !headings.as_ref().is_some_and(has_all);
-        if !options.lenient {
-            refuse_thousands(&body[first..])?;
-        }
+        let doubts = refuse_thousands(&body[first..], options)?.into_iter().collect();
         let mut rows =
             numbers(&body[first..], headings.as_ref().map_or(0, |(_, headings)| headings.len()), fills_rows)?;
         let header = options.skip_rows..rows.lines[0] - 1;
@@ -73,6 +73,7 @@ impl Rows {
             })
             .unwrap_or_default();
         let text = || header.clone().map(|index| (index + 1, lines[index]));
+        rows.doubts = doubts;
         rows.stated_units = statement::units(text().filter(|(line, _)| *line != rows.headings.0));
         rows.stated_intervals = text().filter_map(|(line, text)| Some((line, statement::interval(text)?))).collect();
         Ok(rows)
@@ -126,8 +127,11 @@ fn first_row(body: &[(usize, &str)]) -> Result<usize, RecordError> {
     };
     let mut first = counted + body[counted..].iter().take_while(is_header).count();
     // A title may have a number (`El Centro 1940`). Where the last of the lines that begin with a letter names all columns, the numbers begin below it.
-    let below =
-        first + body[first..].iter().take_while(|(_, text)| text.trim_start().starts_with(char::is_alphabetic)).count();
+    let begins_with_letter = |text: &str| {
+        let text = text.trim_start_matches(|c: char| c.is_whitespace() || "\"'".contains(c));
+        text.starts_with(char::is_alphabetic) && !words(text).next().is_some_and(|word| is_undefined(word.text))
+    };
+    let below = first + body[first..].iter().take_while(|(_, text)| begins_with_letter(text)).count();
     if let (true, Some((line, row))) = (below > first, body.get(below))
         && heads(body[below - 1].1, row)
         && split(row, *line).is_ok()
@@ -165,6 +169,7 @@ fn numbers(body: &[(usize, &str)], names: usize, fills_rows: bool) -> Result<Row
         columns: 0,
         fills_rows,
         in_first_row: 0,
+        doubts: Vec::new(),
         stated_units: Vec::new(),
         stated_intervals: Vec::new(),
     };
@@ -186,7 +191,7 @@ fn numbers(body: &[(usize, &str)], names: usize, fills_rows: bool) -> Result<Row
         rows.lines.extend(std::iter::repeat_n(*line, if fills_rows { row.len() } else { 1 }));
         rows.values.extend(row);
     }
-    if rows.lines.is_empty() {
+    if rows.values.is_empty() {
         return Err(RecordError::Empty);
     }
     rows.in_first_row = rows.columns;
@@ -225,7 +230,7 @@ fn refuse_times_among(rows: &Rows, line: usize) -> Result<(), RecordError> {
         numbers.len() >= FEWEST_TIMES_IN_ROW && step > 0.0 && numbers.windows(2).all(is_step)
     };
     if in_steps(1) || in_steps(2) {
-        let which = if in_steps(1) { "the numbers" } else { "every second number" };
+        let which = if in_steps(1) { "the numbers" } else { "half of the numbers" };
         let problem = format!("{which} of the first row rise in equal steps: they are times and no samples");
         return Err(entry("write one time and one sample per line").wrong(problem));
     }
