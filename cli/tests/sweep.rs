@@ -574,4 +574,11 @@ fn shards_over_texts_that_look_like_numbers_are_merged() {
     folder.succeeds("merge merged.csv 1.csv 2.csv --sweep sweep.toml");
     assert_eq!(folder.read("merged.csv"), folder.read("whole.csv"));
     assert!(folder.read("whole.csv").contains("\n3,1.0,"), "{}", folder.read("whole.csv"));
+    // Runs of a sweep have no rows, which would be too many at the last frequency, on whatever thread a point comes first.
+    folder.succeeds("sweep sweep.toml --shard 3/12 --out alone.csv");
+    let alone = folder.read("alone.csv");
+    assert!(
+        alone.contains("\n2,001,1e-5,overturns,") && folder.read("whole.csv").contains("\n2,001,1e-5,overturns,"),
+        "{alone}"
+    );
 }

@@ -54,7 +54,7 @@ impl SceneFile {
     /// # Errors
     /// [`SceneFileError`]
     pub fn from_toml(text: &str, file: &Path) -> Result<SceneFile, SceneFileError> {
-        let reader = Reader { text, file, records: None };
+        let reader = Reader { text, file, records: None, with_rows: true };
         reader.named(|| reader.read(Table::parse(text)?))
     }
 }
@@ -65,6 +65,8 @@ pub(crate) struct Reader<'t> {
     pub file: &'t Path,
     /// Records read before, for scenes that are read again and again; `None` to keep none.
     pub records: Option<&'t Records>,
+    /// Whether the scene has rows. Without them there is no limit of their number.
+    pub with_rows: bool,
 }
 
 impl Reader<'_> {
@@ -76,8 +78,11 @@ impl Reader<'_> {
     /// Reads the whole file and checks its scene.
     pub fn read(&self, mut root: Table) -> Result<SceneFile, Fault> {
         let mut derived = Vec::new();
-        let scene = self.scene(&mut root, &mut derived)?;
+        let mut scene = self.scene(&mut root, &mut derived)?;
         root.close()?;
+        if !self.with_rows {
+            scene.set_rows(None);
+        }
         let several =
             |errors: SceneErrors| Fault::Several(errors.faults().iter().map(|fault| refused(&root, fault)).collect());
         scene.check().map_err(several)?;

@@ -34,7 +34,8 @@ impl Template {
     /// # Errors
     /// [`SceneFileError`]
     pub fn from_toml(text: String, file: &Path) -> Result<Template, SceneFileError> {
-        let root = Table::parse(&text).map_err(|wrong| Reader { text: &text, file, records: None }.error(wrong))?;
+        let root = Table::parse(&text)
+            .map_err(|wrong| Reader { text: &text, file, records: None, with_rows: true }.error(wrong))?;
         let template = Template { text, file: file.into(), root, records: Records::default() };
         template.with(std::iter::empty())?;
         Ok(template)
@@ -74,12 +75,7 @@ impl Template {
         &self,
         settings: impl IntoIterator<Item = (&'s str, &'s Setting)>,
     ) -> Result<Scene, SceneFileError> {
-        let mut root = self.root.clone();
-        let reader = self.reader();
-        reader.named(|| {
-            change(&mut root, settings)?;
-            reader.read(root).map(|read| read.scene)
-        })
+        self.changed(settings, true)
     }
 
     /// The template for scenes in which little but the ground motion changes. `others` are all keys that will be set: they show whether one of them
@@ -89,8 +85,29 @@ impl Template {
         VariedExcitation { template: self, root: self.root.apart(), amplitude: None, has_end }
     }
 
+    /// As [`Template::with`], a scene without rows, which may last longer than rows would allow.
+    pub(crate) fn without_rows<'s>(
+        &self,
+        settings: impl IntoIterator<Item = (&'s str, &'s Setting)>,
+    ) -> Result<Scene, SceneFileError> {
+        self.changed(settings, false)
+    }
+
+    fn changed<'s>(
+        &self,
+        settings: impl IntoIterator<Item = (&'s str, &'s Setting)>,
+        with_rows: bool,
+    ) -> Result<Scene, SceneFileError> {
+        let mut root = self.root.clone();
+        let reader = Reader { with_rows, ..self.reader() };
+        reader.named(|| {
+            change(&mut root, settings)?;
+            reader.read(root).map(|read| read.scene)
+        })
+    }
+
     fn reader(&self) -> Reader<'_> {
-        Reader { text: &self.text, file: &self.file, records: Some(&self.records) }
+        Reader { text: &self.text, file: &self.file, records: Some(&self.records), with_rows: true }
     }
 
     /// Whether the scene has a table of this dotted name.
@@ -185,7 +202,7 @@ impl<'t> VariedExcitation<'t> {
             return Ok(());
         }
         self.go_to(settings)?;
-        let reader = self.template.reader();
+        let reader = Reader { with_rows: false, ..self.template.reader() };
         reader.named(|| {
             scene.excitation = reader.excitation(&mut self.root.clone(), &scene.column)?;
             if !self.has_end && !end_after_free_swing(scene) {

@@ -48,7 +48,7 @@ impl IdaFile {
     /// [`SceneFileError`]
     pub fn from_toml(text: &str, file: &Path) -> Result<IdaFile, SceneFileError> {
         let kept = Records::default();
-        let reader = Reader { text, file, records: Some(&kept) };
+        let reader = Reader { text, file, records: Some(&kept), with_rows: true };
         reader.named(|| IdaFile::read(&reader, &kept, Table::parse(text)?))
     }
 

@@ -43,7 +43,7 @@ impl Sweep {
     /// # Errors
     /// [`SceneFileError`]
     pub fn from_toml(text: &str, file: &Path, base: Option<Template>) -> Result<Sweep, SceneFileError> {
-        let reader = Reader { text, file, records: None };
+        let reader = Reader { text, file, records: None, with_rows: true };
         reader.named(|| Sweep::read(Table::parse(text)?, file, base))
     }
 

@@ -107,8 +107,7 @@ impl Sweep {
     /// If there is no such point.
     pub fn scene(&self, index: usize) -> Result<Scene, SceneFileError> {
         let keys = self.axes.iter().map(|axis| axis.key.as_str());
-        let mut scene = self.template.with(keys.zip(self.settings(index)))?;
-        scene.set_rows(None);
+        let mut scene = self.template.without_rows(keys.zip(self.settings(index)))?;
         scene.options.wanted = match self.ask {
             Ask::Outcome => Wanted::Outcome,
             Ask::Overturns => Wanted::Overturns,
