@@ -194,6 +194,12 @@ fn a_check_says_towards_which_side_a_displaced_column_is_weak() {
         &["0.2000 g opens no interface of the column at rest, which takes 0.2444 g towards its weaker side"],
     );
     assert_has(&told("-0.4"), &["is enough to open", "opens at 0.2444 g towards its weaker side"]);
+    // The ratio of either side is another than that of the stack above the middle of its contact, which the table has.
+    let note = "Housner's ratio of a displaced stack is that of the stack above the middle of its contact";
+    assert_has(&told("0.4"), &[note]);
+    let aligned =
+        Folder::with("scene.toml", &scene("0.4").replace("[0.0, 0.2]", "[0.0, 0.0]")).succeeds("check scene.toml");
+    assert!(!aligned.contains(note), "{aligned}");
 }
 
 /// A displaced block that stands on all of its base opens, to either side at the same acceleration. The other interface has the least threshold, to its

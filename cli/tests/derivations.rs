@@ -29,6 +29,10 @@ fn derivations_are_printed_as_text_as_code_and_as_latex() {
         &latex,
         &["$p_{1} = b_{1}^{\\mathrm{bot}}$", "$(x^{f}_{2}, y^{f}_{2})$", "interfaces that stick stand aligned"],
     );
+    assert_has(
+        &latex,
+        &["slides to the right along the lower face, $\\dot u_{1} > 0$", "is positive to the right along its face"],
+    );
     assert_has(&latex, &["K_{1,2} &= \\mathtt{mass\\_2\\_1}", "f_{3} &= \\mathtt{tested\\_load\\_1}"]);
     let code = folder.succeeds("derive --blocks 2 --mode (+>,f) --format rust");
     assert_has(

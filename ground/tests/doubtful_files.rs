@@ -146,6 +146,12 @@ fn times_have_units_and_numbers_of_rows_are_none() {
     let warned = read(&whole, &in_g());
     assert!(warned.dt == 1.0 && warned.warnings[0].contains("1 s is hardly one"), "{warned:?}");
     assert!(agrees(&read(&whole, &TextOptions { dt: Some(0.01), ..in_g() }), G, 0.01));
+    for share in ["IN PERCENT OF G", "(% OF G)", "IN % G "] {
+        let text = format!("A\nB\nACCELERATION TIME HISTORY {share}\nNPTS= 20, DT= .01");
+        assert!(refused(&table(&text, value), &options()).contains("a share of a unit"), "{share}");
+    }
+    let tapered = "A\nB\nACCELERATION TIME SERIES, 5% COSINE TAPER, IN UNITS OF G\nNPTS= 20, DT= .01";
+    assert!(agrees(&read(&table(tapered, |_, a| format!("{a}")), &options()), G, 0.01));
     for factor in [" / 10", " X 1000", "/10", " * 100", " *9.81"] {
         let text = format!("A\nB\nACCELERATION IN UNITS OF G{factor}\nNPTS= 20, DT= .01");
         let error = refused(&table(&text, value), &options());

@@ -64,7 +64,7 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// What the response of a point says of what is asked. Companions, of which [`Ask::Trust`] asks, are not its matter.
+    /// What the response of a point says of what is asked. [`Outcome::trust`] is left out: it comes from companions, which are runs of their own.
     pub(super) fn of(ask: Ask, scene: &Scene, response: &Response) -> Outcome {
         let with_peaks = ask.is_of_peaks();
         // A column that no event stops stays in the mode in which it begins.

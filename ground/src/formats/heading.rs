@@ -3,7 +3,8 @@
 //! A unit stands in brackets (`a [m/s2]`), at the end of a name (`time_ms`, `Acc in g`), or in a row of units below the names. A name that
 //! says no quantity (`h1`, `NS`, `n`) may be anything: only its unit tells.
 
-use crate::unit::{AccelerationUnit, has_factor};
+use super::factor::has_factor;
+use crate::unit::AccelerationUnit;
 
 /// What a column holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -350,6 +351,8 @@ mod tests {
             "Acc* (g)",
             "Sta. 12 (g)",
             "Acc (g) x 2",
+            "Floor 2.5 (g)",
+            "Acc halfspace (g)",
             "acc_x_g",
         ] {
             assert_eq!(

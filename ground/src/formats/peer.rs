@@ -12,6 +12,7 @@
 //! the line with the count is the last one, among the first ten lines, that names NPTS. The unit is sought in the lines above it, and then in
 //! all lines above the numbers.
 
+use super::factor::has_factor;
 use super::header::{Entry, brief, number_after, tidy};
 use super::heading::Quantity;
 use super::numbers::{Block, FixedWidth, is_remark, number, words};
@@ -20,7 +21,7 @@ use super::statement::{self, HEADER_LINES, names_count};
 use super::table;
 use crate::error::RecordError;
 use crate::options::TextOptions;
-use crate::unit::{AccelerationUnit, has_factor};
+use crate::unit::AccelerationUnit;
 use std::iter;
 
 /// Columns of a row, used if blanks do not separate the numbers.
@@ -133,7 +134,11 @@ fn unit(above: &[&str], options: &TextOptions) -> Result<Option<(usize, Accelera
             let remedy = "use the acceleration file (.AT2) of the same record";
             return Err(entry(remedy).quoted("this is no acceleration:"));
         }
-        if upper.contains('%') || upper.contains("PERCENT") {
+        let is_share = |words: &str| {
+            let after = upper.split_once(words).and_then(|(_, rest)| rest.split([' ', ',', ';', ':', ')', ']']).next());
+            after.is_some_and(|unit| AccelerationUnit::parse(unit).is_some())
+        };
+        if ["% OF ", "PERCENT OF ", "IN % ", "IN PERCENT "].iter().any(|words| is_share(words)) {
             let remedy = "convert the record to g, m/s/s or cm/s/s and name that unit";
             return Err(
                 entry(remedy).wrong(format!("a share of a unit is no unit that is known: `{}`", brief(text.trim())))

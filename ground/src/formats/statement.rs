@@ -1,11 +1,12 @@
 //! What the free text of a header states: the number of samples, their interval and their unit.
 
+use super::factor::has_factor;
 use super::header::{Entry, leading_number, place_after};
 use super::heading::second;
 use super::numbers::number;
 use crate::error::RecordError;
 use crate::options::TextOptions;
-use crate::unit::{AccelerationUnit, has_factor};
+use crate::unit::AccelerationUnit;
 
 /// Lines among which the line with the number of samples is sought.
 pub const HEADER_LINES: usize = 10;
@@ -40,13 +41,13 @@ fn units_of(line: &str) -> Vec<AccelerationUnit> {
     let line = line.replace(" / s", "/s").replace(" / S", "/S");
     let is_of_gravity = line.to_ascii_lowercase().contains("gravity");
     let mut end = 0;
-    let with_place = |part: &'_ str| -> Option<(usize, usize)> {
+    let place = |part: &str| {
         let begin = end;
         end += part.len();
         let length = part.trim_end_matches(is_end).len();
         (length > 0).then_some((begin, begin + length))
     };
-    let places: Vec<(usize, usize)> = line.split_inclusive(is_end).filter_map(with_place).collect();
+    let places: Vec<(usize, usize)> = line.split_inclusive(is_end).filter_map(place).collect();
     let words: Vec<&str> = places.iter().map(|(begin, end)| &line[*begin..*end]).collect();
     let bare = |word: &str| word.trim_matches(['[', '(', ']', ')']).to_ascii_lowercase();
     let is_number = |place: usize| words.get(place).is_some_and(|word| number(&bare(word)).is_some());

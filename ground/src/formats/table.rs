@@ -43,7 +43,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let chosen = acceleration_column(&rows, options)?;
     refuse_other_quantity(&rows, chosen)?;
     refuse_names_of_all(&rows)?;
-    let mut warnings: Vec<String> = rows.doubts.clone();
+    let mut warnings: Vec<String> = rows.warnings.clone();
     let unit = unit(&rows, chosen, options, &mut warnings)?;
     let (begins, dt) = times::begin_and_interval(&rows, chosen, options, &mut warnings)?;
     warnings.extend(begins.and_then(|begins| late_start(begins, dt)));
@@ -125,11 +125,13 @@ fn other_motion_in_remarks(lines: &[&str], rows: &Rows, options: &TextOptions) -
 
 /// Warning that blank lines or remarks part the numbers of a single column into a few parts: they may be several records.
 fn several_parts(rows: &Rows) -> Option<String> {
+    if rows.in_first_row > 1 {
+        return None;
+    }
     let begins: Vec<usize> = (1..rows.lines.len()).filter(|row| rows.lines[*row] > rows.lines[*row - 1] + 1).collect();
     let ends = begins.iter().copied().chain([rows.lines.len()]);
     let are_long = || begins.iter().zip(ends.skip(1)).all(|(begin, end)| end - begin >= LEAST_ROWS_OF_PART);
-    let is_single = rows.in_first_row == 1 && (1..=MOST_PARTS).contains(&begins.len());
-    (is_single && begins[0] >= LEAST_ROWS_OF_PART && are_long()).then(|| {
+    ((1..=MOST_PARTS).contains(&begins.len()) && begins[0] >= LEAST_ROWS_OF_PART && are_long()).then(|| {
         let (parts, line) = (begins.len() + 1, rows.lines[begins[0]]);
         format!(
             "the numbers are in {parts} parts, the second of which begins in line {line}; they are read as one record"

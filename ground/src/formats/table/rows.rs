@@ -33,7 +33,7 @@ pub struct Rows {
     /// Numbers of the first row.
     pub in_first_row: usize,
     /// Warnings, a sentence each.
-    pub doubts: Vec<String>,
+    pub warnings: Vec<String>,
     /// Lines, from 1, and units that the text above the numbers states, the headings excepted.
     pub stated_units: Vec<(usize, AccelerationUnit)>,
     /// Lines, from 1, and sampling intervals `[s]` that the text above the numbers states.
@@ -57,7 +57,7 @@ impl Rows {
         let headings = last_text.map(|place| (body[place].0, headings(body[place].1, above)));
         let has_all = |(_, names): &(usize, Vec<Heading>)| names.iter().any(|heading| is_all(&heading.name));
         let fills_rows = options.column.as_deref().is_some_and(is_all) && !headings.as_ref().is_some_and(has_all);
-        let doubts = refuse_thousands(&body[first..], options)?.into_iter().collect();
+        let warnings = refuse_thousands(&body[first..], options)?.into_iter().collect();
         let mut rows =
             numbers(&body[first..], headings.as_ref().map_or(0, |(_, headings)| headings.len()), fills_rows)?;
         let header = options.skip_rows..rows.lines[0] - 1;
@@ -73,7 +73,7 @@ impl Rows {
             })
             .unwrap_or_default();
         let text = || header.clone().map(|index| (index + 1, lines[index]));
-        rows.doubts = doubts;
+        rows.warnings = warnings;
         rows.stated_units = statement::units(text().filter(|(line, _)| *line != rows.headings.0));
         rows.stated_intervals = text().filter_map(|(line, text)| Some((line, statement::interval(text)?))).collect();
         Ok(rows)
@@ -169,7 +169,7 @@ fn numbers(body: &[(usize, &str)], names: usize, fills_rows: bool) -> Result<Row
         columns: 0,
         fills_rows,
         in_first_row: 0,
-        doubts: Vec::new(),
+        warnings: Vec::new(),
         stated_units: Vec::new(),
         stated_intervals: Vec::new(),
     };
