@@ -10,7 +10,7 @@
 //! Where the direction `ε` of a slip is given, the force is `λ (across - ε μ along)`. Impacts always have a solution, which Lemke's method finds;
 //! accelerations may have none. The solution is only a guess for the search, which examines it like any other: rounding decides critical contacts.
 
-use super::chain::{BlockMotion, Chain, Rates, plus, scaled};
+use super::chain::{Chain, Rates, plus, scaled};
 use super::contact_problem::{Question, Touch};
 use super::gaps::{self, Corner};
 use super::joint::{Configuration, Face, Joint, Sign, Slip, face};
@@ -18,6 +18,7 @@ use crate::column::Column;
 use crate::mechanics::kinematics::Vec2;
 use crate::numerics::lemke::lemke;
 use crate::numerics::per_block::PerBlock;
+use smallvec::SmallVec;
 
 /// Change of a gap or a slide that counts as none, as a share of the largest change without contact forces.
 const UNCHANGED: f64 = 1e-9;
@@ -131,12 +132,14 @@ fn solved(chain: &Chain, contacts: &[Contact]) -> Option<Vec<Found>> {
     // Forces are in units of the mean mass, so that entries of the matrix are of the order of one.
     let blocks = chain.column().blocks();
     let unit = blocks.iter().map(|block| block.mass).sum::<f64>() / blocks.len() as f64;
-    let jacobians: Vec<[BlockMotion; 2]> =
-        contacts.iter().map(|own| own.axes.map(|axis| jacobian(chain, own, axis))).collect();
-    let response = |a: &BlockMotion, b: &BlockMotion| {
-        let parts = blocks.iter().enumerate().map(|(j, block)| {
-            let linear = a.linear[j][0] * b.linear[j][0] + a.linear[j][1] * b.linear[j][1];
-            unit * (linear / block.mass + a.angular[j] * b.angular[j] / block.inertia)
+    let pairs: Vec<[ForcePair; 2]> =
+        contacts.iter().map(|own| own.axes.map(|axis| force_pair(chain, own, axis))).collect();
+    let response = |a: &ForcePair, b: &ForcePair| {
+        let loads = a.iter().flat_map(|a| b.iter().filter(|b| b.block == a.block).map(move |b| (a, b)));
+        let parts = loads.map(|(a, b)| {
+            let block = &blocks[a.block];
+            let linear = a.force[0] * b.force[0] + a.force[1] * b.force[1];
+            unit * (linear / block.mass + a.moment * b.moment / block.inertia)
         });
         parts.sum::<f64>()
     };
@@ -153,10 +156,7 @@ fn solved(chain: &Chain, contacts: &[Contact]) -> Option<Vec<Found>> {
     }
     // Row of changes: d(change)/d(unknown).
     let change = |at: usize, axis: usize, (by, force): &(usize, [f64; 2])| {
-        (0..2)
-            .filter(|k| force[*k] != 0.0)
-            .map(|k| force[k] * response(&jacobians[at][axis], &jacobians[*by][k]))
-            .sum::<f64>()
+        (0..2).filter(|k| force[*k] != 0.0).map(|k| force[k] * response(&pairs[at][axis], &pairs[*by][k])).sum::<f64>()
     };
     let size = unknowns.len();
     let (mut m, mut q) = (vec![0.0; size * size], vec![0.0; size]);
@@ -192,16 +192,23 @@ fn solved(chain: &Chain, contacts: &[Contact]) -> Option<Vec<Found>> {
     Some(contacts.iter().zip(&firsts).enumerate().map(found).collect())
 }
 
-/// Forces and moments on the blocks of a unit force of a contact along an axis: with the axis on the upper block, against it on the lower one.
-fn jacobian(chain: &Chain, contact: &Contact, axis: Vec2) -> BlockMotion {
-    let mut motion =
-        BlockMotion { linear: PerBlock::filled([0.0; 2], chain.len()), angular: PerBlock::filled(0.0, chain.len()) };
+/// What a contact force does to a block: a force, and a moment about the centroid.
+struct Load {
+    block: usize,
+    force: Vec2,
+    moment: f64,
+}
+
+/// A contact force on the block above the interface, and against it on the block below, if there is one.
+type ForcePair = SmallVec<[Load; 2]>;
+
+/// The loads of a unit force of a contact along an axis.
+fn force_pair(chain: &Chain, contact: &Contact, axis: Vec2) -> ForcePair {
     let interface = contact.corner.interface;
-    for (block, sign) in [(Some(interface), 1.0), (interface.checked_sub(1), -1.0)] {
-        let Some(block) = block else { continue };
+    let load = |block: usize, sign: f64| {
         let arm = [contact.place[0] - chain.centroid(block)[0], contact.place[1] - chain.centroid(block)[1]];
-        motion.linear[block] = scaled(axis, sign);
-        motion.angular[block] = sign * (axis[0] * arm[1] - axis[1] * arm[0]);
-    }
-    motion
+        Load { block, force: scaled(axis, sign), moment: sign * (axis[0] * arm[1] - axis[1] * arm[0]) }
+    };
+    let below = interface.checked_sub(1).map(|block| load(block, -1.0));
+    below.into_iter().chain([load(interface, 1.0)]).collect()
 }

@@ -66,7 +66,7 @@ impl Factors {
 
     /// Factorises the matrix; `None` where a pivot vanishes or is not finite.
     pub fn factorise(&mut self) -> Option<()> {
-        let (size, a) = (self.size, &mut self.entries);
+        let (size, a) = (self.size, self.entries.as_mut_slice());
         for column in 0..size {
             let mut pivot = column;
             for row in column + 1..size {
@@ -82,13 +82,13 @@ impl Factors {
             if pivot != column {
                 (0..size).for_each(|k| a.swap(pivot * size + k, column * size + k));
             }
-            for row in column + 1..size {
-                let factor = a[row * size + column] / value;
-                a[row * size + column] = factor;
+            let (above, below) = a.split_at_mut((column + 1) * size);
+            let own = &above[column * size + column + 1..];
+            for row in below.chunks_exact_mut(size) {
+                let factor = row[column] / value;
+                row[column] = factor;
                 if factor != 0.0 {
-                    for k in column + 1..size {
-                        a[row * size + k] -= factor * a[column * size + k];
-                    }
+                    row[column + 1..].iter_mut().zip(own).for_each(|(entry, own)| *entry -= factor * own);
                 }
             }
         }
@@ -104,7 +104,7 @@ impl Factors {
 
     /// Replaces loads by the solution. The matrix must be factorised.
     pub fn solve(&self, loads: &mut [f64]) {
-        let (size, a) = (self.size, &self.entries);
+        let (size, a) = (self.size, self.entries.as_slice());
         for (column, pivot) in self.pivots.iter().enumerate() {
             loads.swap(column, *pivot);
         }
