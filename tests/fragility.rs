@@ -162,6 +162,32 @@ fn two_levels_have_a_closed_form() {
     assert_eq!(uplift.statements(), ["no curve: every run reaches the state from 0.3 on; begin lower"]);
 }
 
+/// Forty records at levels around 0.5, and far from them a level at which one record does what the curve excludes: the fit is as bad on either side.
+#[test]
+fn a_stripe_far_above_the_median_contradicts_the_curve_as_much_as_one_far_below() {
+    let near: Vec<f64> = (0..60).map(|step| 0.35 * (0.75f64 / 0.35).powf(f64::from(step) / 59.0)).collect();
+    let goodness = |far: f64, mirrored: bool| {
+        let reached =
+            |level: f64| (40.0 * 0.5 * libm::erfc(-(level / 0.5).ln() / 0.1 / std::f64::consts::SQRT_2)).round();
+        let stripe = |level: f64, reached: f64| {
+            (0..40).map(move |record| Observation {
+                record: format!("{record}"),
+                level: if mirrored { 0.25 / level } else { level },
+                fate: Some(if (f64::from(record) < reached) != mirrored { Fate::Overturns } else { Fate::Rocks }),
+                has_uplift: true,
+                peaks: vec![0.4],
+                residual_slides: Vec::new(),
+            })
+        };
+        let runs: Vec<Observation> =
+            near.iter().flat_map(|level| stripe(*level, reached(*level))).chain(stripe(far, 39.0)).collect();
+        Fragility::of(&runs, LimitState::Overturned, &FragilityOptions::default()).goodness.expect("a curve")
+    };
+    let [above, below] = [false, true].map(|mirrored| goodness(3.0, mirrored));
+    assert!(above.chi_squared > 1e30 && above.p_value == Some(0.0), "{above:?}");
+    assert!((above.chi_squared / below.chi_squared - 1.0).abs() < 1e-6, "{above:?} {below:?}");
+}
+
 /// A record that overturns at a level and stands above it: said, with the raw shares, and undecided runs are counted apart.
 #[test]
 fn what_is_not_monotonic_is_said() {

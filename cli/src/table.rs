@@ -12,7 +12,7 @@ mod tidy;
 
 use crate::error::Failure;
 use crate::files::{LARGEST_TABLE, check};
-use column::{OUTCOME, Rows, TRUST};
+use column::{OUTCOME, Rows, TRUNCATED, TRUST};
 use csv::StringRecord;
 use rocking::Fate;
 use rocking::trust::Degree;
@@ -123,18 +123,24 @@ pub fn numbered<S: AsRef<str>>(header: &[S], name: &str) -> Result<Vec<usize>, S
     (1..=count).map(place).collect()
 }
 
-/// A row of a finished table with the fate of its column; no fate where the run has no answer, or one that its companions do not determine.
-pub type Decided = (Option<Fate>, StringRecord);
+/// A row of a finished table, and what it says of its column.
+pub struct Decided {
+    /// `None` where the run has no answer, or one that its companions do not determine.
+    pub fate: Option<Fate>,
+    /// Whether the column stands where the run is cut: what comes later is not known.
+    pub is_cut: bool,
+    pub row: StringRecord,
+}
 
 /// Opens a finished table: its header, and its rows with their fates.
 pub fn decided(path: &Path) -> std::io::Result<(StringRecord, impl Iterator<Item = std::io::Result<Decided>>)> {
     let Rows { header, rows } = open(path)?;
-    let [outcome, trust] = [OUTCOME, TRUST].map(|name| header.iter().position(|own| own == name));
+    let [outcome, truncated, trust] = [OUTCOME, TRUNCATED, TRUST].map(|name| header.iter().position(|own| own == name));
     let decided = move |row: StringRecord| {
         let cell = |column: Option<usize>| column.and_then(|column| row.get(column)).unwrap_or_default();
         let fate =
             Fate::parse(cell(outcome)).filter(|fate| fate.is_decided() && cell(trust) != Degree::NotDetermined.name());
-        (fate, row)
+        Decided { fate, is_cut: cell(truncated) == "true", row }
     };
     Ok((header, rows.map(move |row| row.map(decided))))
 }

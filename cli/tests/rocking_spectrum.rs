@@ -66,7 +66,8 @@ fn the_values_of_a_spectrum_are_those_of_single_runs() {
         let (alpha, period) = (row.number("size.alpha"), row.number("size.rocking_period"));
         let demands = &by_point[&format!("{alpha} {period}")];
         let lost = demands.iter().filter(|demand| demand.is_infinite()).count();
-        assert_eq!((row.number("runs"), row.number("lost"), row.number("undecided")), (4.0, lost as f64, 0.0));
+        let counts = ["runs", "lost", "undecided", "truncated"].map(|name| row.number(name));
+        assert_eq!(counts, [4.0, lost as f64, 0.0, 0.0]);
         for share in [16, 50, 84] {
             assert_eq!(row.number(&format!("peak_{share}")), fractile(demands, f64::from(share) / 100.0), "{row:?}");
         }
@@ -95,6 +96,13 @@ fn the_values_of_a_spectrum_are_those_of_single_runs() {
     folder.succeeds("merge m.csv sweep-1-of-2.csv sweep-2-of-2.csv --sweep sweep.toml");
     let [whole, merged] = ["sweep", "m"].map(|name| folder.bytes(&format!("{name}-fractiles.csv")));
     assert!(whole == merged);
+    // Where the ground still moves at the end, those that stand are cut.
+    let cut = folder.read("base.toml").replace("t_end = 14.0", "t_end = 4.0");
+    folder.write("base.toml", cut);
+    folder.succeeds("sweep sweep.toml --out cut.csv");
+    let fractiles = folder.table("cut-fractiles.csv");
+    let is_cut = |row: crate::common::Row| row.number("truncated") == 4.0 - row.number("lost");
+    assert!(fractiles.rows().all(is_cut) && fractiles.numbers("truncated")[0] > 0.0, "{fractiles:?}");
 }
 
 /// Axes that change together, and a distribution beside an axis of records, have fractiles of the records at each combination of the others as well.

@@ -28,10 +28,10 @@ fn failure_probabilities_are_those_of_the_distribution() {
             let folder = folder(&sweep);
             let told = folder.succeeds("sweep sweep.toml --out table.csv");
             let table = folder.table("table-probability.csv");
-            let columns = ["runs", "lost", "undecided", "probability", "low", "high"];
+            let columns = ["runs", "lost", "undecided", "truncated", "probability", "low", "high"];
             assert_eq!(table.columns(), columns);
-            let [runs, lost, undecided, share, low, high] = columns.map(|name| table.row(0).number(name));
-            assert_eq!((runs, undecided, share), (2048.0, 0.0, lost / 2048.0));
+            let [runs, lost, undecided, truncated, share, low, high] = columns.map(|name| table.row(0).number(name));
+            assert_eq!((runs, undecided, truncated, share), (2048.0, 0.0, 0.0, lost / 2048.0));
             assert!((share - exact).abs() < error, "{method}: {share} and {exact}");
             assert!(low < exact && exact < high && high - low < 0.05, "{method}: {low} to {high}");
             let printed = told.split_once("lost with probability ").and_then(|(_, rest)| rest.split_once(' '));
@@ -203,6 +203,21 @@ fn a_sample_whose_verdict_is_not_determined_is_left_out() {
     folder.write("table.csv", folder.read("table.csv").replacen(",determined,", ",not-determined,", 1));
     folder.succeeds("merge merged.csv table.csv --sweep sweep.toml");
     assert_eq!(counts("merged-probability.csv"), [3.0, 3.0, 1.0]);
+}
+
+/// Of runs that `t_end` cuts nobody knows what becomes of the column: the table says how many count as standing. Overturning takes longer than 0.4 s.
+#[test]
+fn probabilities_say_how_many_runs_are_cut() {
+    let sampled = "[sampling]\nsamples = 16\n[axes]\namplitude = { uniform = [3.0, 4.0] }\n";
+    for (t_end, lost, truncated) in [("0.4", 0.0, 16.0), ("20.0", 16.0, 0.0)] {
+        let folder = folder(&format!("ask = \"overturns\"\n{sampled}"));
+        folder.write("scene.toml", SCENE.replace("t_end = 10.0", &format!("t_end = {t_end}")));
+        let told = folder.succeeds("sweep sweep.toml --out table.csv");
+        let table = folder.table("table-probability.csv");
+        let counts = ["runs", "lost", "undecided", "truncated"].map(|name| table.row(0).number(name));
+        assert_eq!(counts, [16.0, lost, 0.0, truncated], "{t_end}");
+        assert_eq!(told.contains("; 16 cut, counted as standing\n"), truncated > 0.0, "{told}");
+    }
 }
 
 /// The probabilities of an earlier sweep of that name are not those of the merged table.

@@ -68,7 +68,16 @@ impl Probit {
 
     /// Probability of the state at a level.
     pub fn probability(&self, level: f64) -> f64 {
-        normal(self.intercept + self.slope * libm::log(level))
+        normal(self.z(level))
+    }
+
+    /// Probability that the state is not reached at a level: it keeps its digits where [`Self::probability`] is one to rounding.
+    pub fn complement(&self, level: f64) -> f64 {
+        normal(-self.z(level))
+    }
+
+    fn z(&self, level: f64) -> f64 {
+        self.intercept + self.slope * libm::log(level)
     }
 }
 

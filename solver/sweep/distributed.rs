@@ -101,7 +101,8 @@ fn copula(
         return Ok(None);
     }
     let found = Copula::new(distributed.len(), &pairs);
-    let problem = || "no variables have all of these correlations together".to_string();
+    let problem =
+        || "these correlations contradict each other, or leave no freedom to one of the variables".to_string();
     found.map(Some).ok_or_else(|| root.wrong("sampling", problem(), "bring some of the correlations closer to zero"))
 }
 

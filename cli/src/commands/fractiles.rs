@@ -4,7 +4,7 @@ use crate::commands::spectrum::beside;
 use crate::error::{Failure, at};
 use crate::output;
 use crate::plot::spectrum::LEAST_RECORDS;
-use crate::table::decided;
+use crate::table::{Decided, decided};
 use crate::text::{printable, shown};
 use rocking::studies::{FRACTILES, fractile};
 use rocking::sweep::{Combine, Sweep, is_of_records};
@@ -18,6 +18,8 @@ struct Group {
     at: Vec<String>,
     /// Number of runs without an answer.
     undecided: usize,
+    /// Number of runs that are cut: their largest angles are those up to there.
+    truncated: usize,
     /// Largest `|θ|/α` of the runs that have an answer, infinite where the column is lost.
     demands: Vec<f64>,
 }
@@ -50,27 +52,29 @@ pub fn write(sweep: &Sweep, out: &Path) -> Result<String, Failure> {
     let mut groups: Vec<Group> = Vec::new();
     let mut places: HashMap<Vec<String>, usize> = HashMap::new();
     for (index, row) in rows.enumerate() {
-        let (fate, row) = row.map_err(at(Failure::Study, out))?;
+        let Decided { fate, is_cut, row } = row.map_err(at(Failure::Study, out))?;
         let peaks = peaks.iter().filter_map(|column| row.get(*column)?.parse::<f64>().ok());
         let at = others(sweep, index);
         let place = *places.entry(at.clone()).or_insert(groups.len());
         if place == groups.len() {
             groups.push(Group { at, ..Group::default() });
         }
+        let group = &mut groups[place];
         match fate {
-            Some(fate) if fate.is_lost() => groups[place].demands.push(f64::INFINITY),
-            Some(_) => groups[place].demands.push(peaks.fold(0.0, f64::max)),
-            None => groups[place].undecided += 1,
+            Some(fate) if fate.is_lost() => group.demands.push(f64::INFINITY),
+            Some(_) => group.demands.push(peaks.fold(0.0, f64::max)),
+            None => group.undecided += 1,
         }
+        group.truncated += usize::from(fate.is_some() && is_cut);
     }
     let path = table(out);
     let names = FRACTILES.map(|share| format!("peak_{:.0}", 100.0 * share));
     let keys = sweep.axes.iter().map(|axis| axis.key.clone()).filter(|key| !is_of_records(key));
     output::csv(&path, |rows| {
-        rows.write_record(keys.chain(["runs", "lost", "undecided"].map(String::from)).chain(names))?;
-        groups.iter().try_for_each(|Group { at, undecided, demands }| {
+        rows.write_record(keys.chain(["runs", "lost", "undecided", "truncated"].map(String::from)).chain(names))?;
+        groups.iter().try_for_each(|Group { at, undecided, truncated, demands }| {
             let lost = demands.iter().filter(|demand| demand.is_infinite()).count();
-            let counts = [demands.len(), lost, *undecided].map(|count| count.to_string());
+            let counts = [demands.len(), lost, *undecided, *truncated].map(|count| count.to_string());
             let fractiles = FRACTILES.map(|share| match demands.is_empty() {
                 true => String::new(),
                 false => format!("{:?}", fractile(demands, share)),

@@ -1,7 +1,7 @@
 //! Values of the only axis of a sweep at which the column is lost, in words.
 
 use crate::error::{Failure, at};
-use crate::table::decided;
+use crate::table::{Decided, decided};
 use crate::text::printable;
 use rocking::scene_file::Setting;
 use rocking::sweep::{Sweep, is_of_records};
@@ -29,7 +29,7 @@ pub fn in_words(sweep: &Sweep, out: &Path) -> Result<String, Failure> {
     let mut runs = Vec::with_capacity(axis.values.len());
     for (setting, row) in axis.values.iter().zip(rows) {
         let Setting::Number(number) = *setting else { return Ok(String::new()) };
-        let (fate, _) = row.map_err(at(Failure::Study, out))?;
+        let Decided { fate, .. } = row.map_err(at(Failure::Study, out))?;
         runs.push(Run { number, setting, is_lost: fate.is_some_and(|fate| fate.is_lost()) });
     }
     runs.sort_by(|a, b| a.number.total_cmp(&b.number));

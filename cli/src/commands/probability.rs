@@ -5,7 +5,7 @@ use crate::commands::spectrum::beside;
 use crate::error::{Failure, at};
 use crate::number::significant;
 use crate::output;
-use crate::table::decided;
+use crate::table::{Decided, decided};
 use crate::text::{printable, shown};
 use rocking::Sweep;
 use rocking::studies::Proportion;
@@ -31,6 +31,17 @@ pub struct Lost {
     pub found: Proportion,
     /// Samples left out: they failed, no motion follows from the laws of contact, or the verdict is not determined.
     pub undecided: usize,
+    /// Samples that stand where their runs are cut, and count as standing.
+    pub truncated: usize,
+}
+
+/// Samples at one combination, as they are counted.
+#[derive(Clone, Default)]
+struct Tally {
+    runs: usize,
+    lost: usize,
+    undecided: usize,
+    truncated: usize,
 }
 
 /// The table of probabilities beside that of a sweep.
@@ -42,27 +53,27 @@ pub fn table(out: &Path) -> PathBuf {
 pub fn of(sweep: &Sweep, out: &Path) -> Result<Vec<Lost>, Failure> {
     let Some(samples) = sweep.samples() else { return Ok(Vec::new()) };
     let (_, rows) = decided(out).map_err(at(Failure::Study, out))?;
-    let mut counts = vec![[0usize; 2]; sweep.len() / samples];
-    let mut undecided = vec![0; counts.len()];
+    let mut tallies = vec![Tally::default(); sweep.len() / samples];
     for (place, row) in rows.enumerate() {
-        let (fate, _) = row.map_err(at(Failure::Study, out))?;
-        let Some(count) = counts.get_mut(place / samples) else { break };
+        let Decided { fate, is_cut, .. } = row.map_err(at(Failure::Study, out))?;
+        let Some(tally) = tallies.get_mut(place / samples) else { break };
         match fate {
-            None => undecided[place / samples] += 1,
+            None => tally.undecided += 1,
             Some(fate) => {
-                count[0] += usize::from(fate.is_lost());
-                count[1] += 1;
+                tally.runs += 1;
+                tally.lost += usize::from(fate.is_lost());
+                tally.truncated += usize::from(is_cut);
             }
         }
     }
-    let lost = counts.into_iter().zip(undecided).enumerate().map(|(place, ([lost, runs], undecided))| {
+    let lost = tallies.into_iter().enumerate().map(|(place, Tally { runs, lost, undecided, truncated })| {
         let settings = sweep.settings(place * samples);
         let at = sweep
             .grid()
             .iter()
             .zip(settings)
             .map(|(axis, setting)| (axis.key.clone(), printable(&setting.to_string()).into_owned()));
-        Lost { at: at.collect(), found: Proportion::of(lost, runs, CONFIDENCE), undecided }
+        Lost { at: at.collect(), found: Proportion::of(lost, runs, CONFIDENCE), undecided, truncated }
     });
     Ok(lost.collect())
 }
@@ -75,12 +86,13 @@ pub fn write(sweep: &Sweep, lost: &[Lost], out: &Path) -> Result<String, Failure
     let path = table(out);
     let keys = sweep.grid().iter().map(|axis| axis.key.as_str());
     output::csv(&path, |rows| {
-        rows.write_record(keys.chain(["runs", "lost", "undecided", "probability", "low", "high"]))?;
-        lost.iter().try_for_each(|Lost { at, found, undecided }| {
+        rows.write_record(keys.chain(["runs", "lost", "undecided", "truncated", "probability", "low", "high"]))?;
+        lost.iter().try_for_each(|Lost { at, found, undecided, truncated }| {
             let own = [
                 found.runs.to_string(),
                 found.reached.to_string(),
                 undecided.to_string(),
+                truncated.to_string(),
                 found.probability.map_or(String::new(), |share| format!("{share:?}")),
                 format!("{:?}", found.interval[0]),
                 format!("{:?}", found.interval[1]),
@@ -112,6 +124,9 @@ impl Lost {
         };
         if self.undecided > 0 {
             let _ = write!(line, "; {} undecided, left out", self.undecided);
+        }
+        if self.truncated > 0 {
+            let _ = write!(line, "; {} cut, counted as standing", self.truncated);
         }
         line.push('\n');
         line

@@ -48,9 +48,12 @@ impl Goodness {
             let sum = |of: &dyn Fn(&Count) -> f64| group.iter().map(|count| of(count)).sum::<f64>();
             let (runs, reached) = (sum(&|count| count.runs as f64), sum(&|count| count.reached as f64));
             let expected = sum(&|count| count.runs as f64 * curve.probability(count.level));
-            let variance = expected * (1.0 - expected / runs);
-            // A group in which the curve is certain adds nothing.
-            if variance > 0.0 { (reached - expected).powi(2) / variance } else { 0.0 }
+            // By itself: far above the median, `runs - expected` would be rounding.
+            let expected_not = sum(&|count| count.runs as f64 * curve.complement(count.level));
+            let variance = expected * expected_not / runs;
+            let squared = (reached - expected).powi(2);
+            // A group in which the curve is certain, and right, adds nothing.
+            if squared > 0.0 { squared / variance } else { 0.0 }
         };
         let chi_squared = groups.iter().map(term).sum();
         let degrees_of_freedom = groups.len().saturating_sub(2);
