@@ -230,8 +230,8 @@ pub enum ColumnError {
         /// Interfaces of the column.
         interfaces: usize,
     },
-    /// A slide that is not finite.
-    #[error("slide {value} m at interface {interface} is out of range")]
+    /// A slide that is not finite, or beyond [`LARGEST_SLIDE`].
+    #[error("slide {value:?} m at interface {interface} is out of range")]
     Slide {
         /// From 1, base first.
         interface: usize,
@@ -258,6 +258,9 @@ pub enum ColumnError {
 
 /// Largest number of blocks of a column: a larger one is taken for a mistake.
 pub const MOST_BLOCKS: usize = 100;
+
+/// Largest slide `[m]`: beyond it, places of blocks lose digits that their motion needs.
+pub const LARGEST_SLIDE: f64 = 1e6;
 
 impl Column {
     /// A column of these blocks, base first, under `gravity [m/s²]`.
@@ -320,7 +323,7 @@ impl Column {
     /// ```
     ///
     /// # Errors
-    /// [`ColumnError`] if there are more or fewer slides than blocks, one is not finite, or a block is off its support.
+    /// [`ColumnError`] if there are more or fewer slides than blocks, one is not finite or beyond [`LARGEST_SLIDE`], or a block is off its support.
     pub fn displaced(mut self, slides: Vec<f64>) -> Result<Column, ColumnError> {
         if slides.len() != self.blocks.len() {
             return Err(ColumnError::SlideCount { slides: slides.len(), interfaces: self.blocks.len() });
@@ -472,7 +475,7 @@ fn seats(blocks: &[Block], slides: &[f64]) -> Result<Vec<Seat>, ColumnError> {
     let mut centres = Vec::with_capacity(blocks.len());
     for (index, (block, &slide)) in blocks.iter().zip(slides).enumerate() {
         let own = block.bottom_half_width;
-        if !slide.is_finite() {
+        if slide.is_nan() || slide.abs() > LARGEST_SLIDE {
             return Err(ColumnError::Slide { interface: index + 1, value: slide });
         }
         // The ground is unbounded: the lowest block stands on all of its base.

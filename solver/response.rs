@@ -94,10 +94,11 @@ pub struct Event {
     pub t: f64,
     /// What happened.
     pub kind: EventKind,
-    /// The interface whose state changed, from 1; the lowest where several did.
+    /// The interface that caused the event, from 1, the lowest of several: that closed or landed, or whose contact opened, slid, stuck or parted. What else
+    /// changed in the same instant is the difference of `before` and `after`. `None` at a start from rest without sliding.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub interface: Option<usize>,
-    /// All interfaces that changed in the same instant, from 1, where there are several: that closed, opened, slid or flew.
+    /// All interfaces that caused the event, from 1, where there are several.
     #[serde(default, skip_serializing_if = "is_empty")]
     pub interfaces: PerBlock<usize>,
     /// Pattern before.
@@ -427,13 +428,24 @@ impl Response {
     /// outcome is requested.
     ///
     /// # Panics
-    /// If `column` has fewer blocks than that of the run.
+    /// If `column` has another number of blocks than that of the run.
     pub fn peaks(&self, column: &Column) -> Vec<f64> {
+        self.assert_of(column);
         let share = |(block, peak): (usize, &f64)| match column.stack(block).slenderness() {
             slenderness if slenderness > 0.0 => peak / slenderness,
             _ => f64::INFINITY,
         };
         self.peak_theta.iter().enumerate().map(share).collect()
+    }
+
+    /// Panics if this is a response of a column with another number of blocks. Those that recorded no peaks do not tell.
+    pub(crate) fn assert_of(&self, column: &Column) {
+        let blocks = self.peak_theta.len();
+        assert!(
+            blocks == 0 || blocks == column.len(),
+            "a response of {blocks} block(s) is not that of a column of {}: give the scene of the run",
+            column.len()
+        );
     }
 
     /// The block with which the column was lost, from 1: it overturned or collapsed. `None` for a column that stands.
@@ -505,9 +517,12 @@ impl Response {
                     equations for these blocks, to the last digit)"
                 .into();
         }
+        let remedy = match blocks <= rocking_codegen::LARGEST {
+            true => "build with ROCKING_MAX_BLOCKS set to the number of blocks".to_string(),
+            false => format!("they exist up to {} blocks, with ROCKING_MAX_BLOCKS", rocking_codegen::LARGEST),
+        };
         format!(
-            "this build has generated equations up to {most} blocks; larger modes ran on the generic ones, which are slower (build with \
-             ROCKING_MAX_BLOCKS set to the number of blocks)"
+            "this build has generated equations up to {most} blocks; larger modes ran on the generic ones, which are slower ({remedy})"
         )
     }
 

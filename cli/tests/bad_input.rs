@@ -235,6 +235,7 @@ fn drums_that_do_not_stand_on_each_other() {
         &["line 8", "`initial.slide`", "1 slide(s) for 2 interface(s)", "one slide per interface"],
     );
     refused(&initial("slide = [0.0, nan]"), &["line 8", "`initial.slide`", "NaN", "give finite numbers"]);
+    refused(&initial("slide = [1e7, 0.0]"), &["line 8", "`initial.slide`", "1e7 m", "out of range", "up to 1e6 m"]);
 }
 
 #[test]

@@ -165,6 +165,9 @@ impl Record {
     /// # Errors
     /// [`RecordError`], as of [`Record::new`].
     pub fn from_samples(values: &[f64], unit: AccelerationUnit, dt: f64, gravity: f64) -> Result<Record, RecordError> {
+        if !(gravity > 0.0 && gravity.is_finite()) {
+            return Err(RecordError::Gravity { gravity });
+        }
         let size = unit.in_si(gravity);
         let record = Record::new(values.iter().map(|value| value * size).collect(), dt, 0.0)?;
         let mut warnings: Vec<String> = missing_sample(values, dt).into_iter().collect();
@@ -404,6 +407,14 @@ mod tests {
         assert_eq!((record.source().file.as_str(), record.scale(), record.accel()), ("x.AT2", 3.0, &[6.0, -3.0][..]));
         let refused = Err(RecordError::Trimmed { from: 0.7, to: 9.0, count: 0, duration: 0.5 });
         assert_eq!(record.trimmed(0.7, 9.0), refused);
+    }
+
+    #[test]
+    fn a_gravity_that_is_none_is_refused() {
+        for gravity in [0.0, -9.81, f64::NAN, f64::INFINITY] {
+            let record = Record::from_samples(&[0.0, 0.3, -0.1], AccelerationUnit::G, 0.01, gravity);
+            assert!(matches!(record, Err(RecordError::Gravity { .. })), "{gravity}: {record:?}");
+        }
     }
 
     #[test]

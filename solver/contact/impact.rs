@@ -1,5 +1,6 @@
 //! Impacts: the plastic law, and the rest rule (docs/book/model.md, section 5).
 
+use super::assert_of;
 use super::decision::Decision;
 use super::restitution::{Restitution, rebounded};
 use super::search::{Candidate, ContactProblem, Found};
@@ -26,10 +27,14 @@ pub struct ImpactLaw<'a> {
 /// The impact at which the interfaces `closing` have reached `φ = 0` from an open state (docs/book/model.md, section 5).
 ///
 /// `pattern` is the pattern before, `theta` and `omega` are the blocks' angles and rates before, length N. The angles of the two blocks at a
-/// closed or closing interface are equal, to rounding; so are the rates at the closed interfaces of the decision.
+/// closed or closing interface are equal, to rounding; so are the rates at the closed interfaces of the decision. All numbers must be finite: of others,
+/// the decision means nothing.
 ///
 /// # Errors
 /// [`SingularMass`]
+///
+/// # Panics
+/// If a list does not have an entry for each of the column's N blocks, or an interface of `closing` is not below N.
 pub fn impact(
     column: &Column,
     pattern: &Pattern,
@@ -39,6 +44,7 @@ pub fn impact(
     ground: Ground,
     law: ImpactLaw,
 ) -> Result<Decision, SingularMass> {
+    assert_of(column, pattern, [theta, omega, law.kappa], closing.iter().copied());
     for_size!(column.len(), size => impact_at(&StateAtEvent::new(size, column, theta), pattern, omega, closing, ground, law))
 }
 

@@ -30,7 +30,22 @@ pub(crate) use restitution::ENERGY_ROUNDING;
 pub use state_at_event::SingularMass;
 pub(crate) use state_at_event::{Gaps, critical_acceleration, rounding_acceleration};
 
+use crate::column::Column;
 use crate::mechanics::dynamics::ContactForce;
+use rocking_codegen::pattern::Pattern;
+
+/// Panics unless a pattern and lists have an entry for each block of the column, and the interfaces (from zero) are of the column.
+fn assert_of<const LISTS: usize>(
+    column: &Column,
+    pattern: &Pattern,
+    lists: [&[f64]; LISTS],
+    mut interfaces: impl Iterator<Item = usize>,
+) {
+    let blocks = column.len();
+    let has_all = pattern.0.len() == blocks && lists.iter().all(|list| list.len() == blocks);
+    assert!(has_all, "a pattern or list does not have the {blocks} entries of the column");
+    assert!(interfaces.all(|interface| interface < blocks), "an interface is not of the column, which has {blocks}");
+}
 
 /// Share of the largest impulse of an impact below which an impulse is rounding: it asks for no friction.
 const NEGLIGIBLE_IMPULSE: f64 = 1e-9;

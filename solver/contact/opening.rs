@@ -1,5 +1,6 @@
 //! Openings: which closed interfaces open when forces change (docs/book/model.md, section 4).
 
+use super::assert_of;
 use super::decision::Decision;
 use super::search::{ContactProblem, Found};
 use super::state_at_event::{
@@ -15,10 +16,13 @@ use rocking_codegen::pattern::{Interface, Pattern};
 /// open with zero gap and zero gap rate, may change its state. `released` lists interfaces (from zero) whose resultants have just
 /// reached a corner, each with the side of that corner: they open, unless they accelerate shut by more than a tolerance; then they are searched like the
 /// rest. The side is right where the moment of the contact force is negative, left where it is positive. Without such interfaces, give `&[]`: the forces
-/// alone decide.
+/// alone decide. All numbers must be finite: of others, the decision means nothing.
 ///
 /// # Errors
 /// [`SingularMass`]
+///
+/// # Panics
+/// If a list does not have an entry for each of the column's N blocks, or an interface of `released` is not below N.
 pub fn open(
     column: &Column,
     pattern: &Pattern,
@@ -27,6 +31,7 @@ pub fn open(
     ground: Ground,
     released: &[(usize, Interface)],
 ) -> Result<Decision, SingularMass> {
+    assert_of(column, pattern, [theta, omega], released.iter().map(|(interface, _)| *interface));
     for_size!(column.len(), size => open_at(&StateAtEvent::new(size, column, theta), pattern, omega, ground, released))
 }
 

@@ -11,7 +11,11 @@ use crate::response::Sample;
 
 impl Sample {
     /// Energies relative to the moving ground `[J]`, the potential one in gravity `g` alone: vertical ground motion does work on the blocks.
+    ///
+    /// # Panics
+    /// If `column` has another number of blocks than the sample.
     pub fn energy(&self, column: &Column) -> Energy {
+        self.assert_of(column);
         let gravity = column.gravity();
         if !self.blocks.is_empty() {
             let motions = column.blocks().iter().zip(&self.blocks).zip(&self.omega);
@@ -29,7 +33,11 @@ impl Sample {
 
     /// Contact forces at all interfaces, base first, length N (docs/book/model.md, section 4). In a run in which blocks slide or fly, they are those
     /// that the run recorded: in the axes of the face that carries each contact, with the moment of a corner about its point.
+    ///
+    /// # Panics
+    /// If `column` has another number of blocks than the sample.
     pub fn contact_forces(&self, column: &Column) -> Vec<ContactForce> {
+        self.assert_of(column);
         if !self.blocks.is_empty() {
             return self.blocks.iter().map(|state| state.force).collect();
         }
@@ -48,7 +56,11 @@ impl Sample {
 
     /// Displacement of the middle of the column's top from its place in the column at rest, to the right and upwards, in the frame of the moving
     /// ground `[m]`.
+    ///
+    /// # Panics
+    /// If `column` has another number of blocks than the sample.
     pub fn top_displacement(&self, column: &Column) -> [f64; 2] {
+        self.assert_of(column);
         // A vector across and along a block, turned clockwise by the angle of the block.
         let turned = |angle: f64, [across, along]: [f64; 2]| {
             let (sin, cos) = (libm::sin(angle), libm::cos(angle));
@@ -74,6 +86,10 @@ impl Sample {
             top = [0, 1].map(|axis| last.place[axis] + up[axis]);
         }
         [0, 1].map(|axis| top[axis] - at_rest[axis])
+    }
+
+    fn assert_of(&self, column: &Column) {
+        assert_eq!(self.theta.len(), column.len(), "a sample of a run of another column: numbers of blocks differ");
     }
 
     /// `[θ, θ̇]` of the free angles: those of the lowest block of each link that moves.
@@ -120,6 +136,14 @@ mod tests {
         let [x, y] = upright.top_displacement(&column);
         assert!((x - (corner[0] + 0.4)).abs() < 1e-15 && (y - (corner[1] + 1.6 - 3.2)).abs() < 1e-15, "{x} {y}");
         assert_eq!(sample([0.0; 2], [0.0; 2], [0, 0]).top_displacement(&column), [0.0, 0.0]);
+    }
+
+    /// A mode of the other column is none: the sample would pass for one at rest.
+    #[test]
+    #[should_panic(expected = "a sample of a run of another column")]
+    fn a_sample_of_another_column_is_refused() {
+        let three = Column::equal_blocks(3, 0.4, 1.6, 1000.0, 9.81).expect("sizes above zero");
+        sample([0.1; 2], [0.0; 2], [1, 0]).contact_forces(&three);
     }
 
     /// A block that tapers from 1.6 m to 0.8 m over a height of 0.8 m has its centroid at 0.8/3 · (1.6 + 2 · 0.8) / (1.6 + 0.8) = 16/45 m.

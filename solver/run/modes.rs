@@ -23,6 +23,8 @@ pub(crate) struct Modes {
     kept: usize,
     /// Work of the present run in phases that were dropped.
     dropped: Work,
+    /// Whether the blocks stand elsewhere than at the start of the run.
+    have_slid: bool,
 }
 
 /// Phases that are kept. A column of 100 blocks enters tens of thousands of patterns, most of them once, with 100 kB each; columns of up to six
@@ -65,6 +67,11 @@ impl Modes {
         let basis = Basis { column: scene.column.clone(), options: scene.options.clone(), skips, ground };
         *self = Modes { basis: Some(basis), ..Modes::default() };
         true
+    }
+
+    /// For motions of a column whose blocks `have_slid` since the start of the run, or have not: to be said before they are entered.
+    pub fn after_slides(&mut self, have_slid: bool) {
+        self.have_slid = have_slid;
     }
 
     /// Begins a run.
@@ -135,7 +142,7 @@ impl Modes {
             DynamicsSource::Generic => (Mode::generic(column, pattern), None),
         };
         // Blocks that have slid are not those for which a column's equations were supplied: others are to be expected.
-        let is_expected = first.is_some() || second.is_some() && column.slides().iter().any(|slide| *slide != 0.0);
+        let is_expected = first.is_some() || second.is_some() && self.have_slid;
         let mode = first.or(second).or_else(|| Mode::generic(column, pattern)).expect("the column is not at rest");
         Entered {
             pattern: pattern.clone(),

@@ -39,9 +39,12 @@ pub struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    /// A run with its warnings, without scene file, duration, or outdated files. The response must be that of the scene: [`Folder::write`] panics if it has
-    /// another number of blocks.
+    /// A run with its warnings, without scene file, duration, or outdated files.
+    ///
+    /// # Panics
+    /// If the response is not that of the scene, but has another number of blocks.
     pub fn new(scene: &'a Scene, response: &'a Response) -> Run<'a> {
+        response.assert_of(&scene.column);
         let mut warnings = scene.excitation.warnings();
         warnings.extend(cut(scene, response));
         warnings.extend(response.warnings());

@@ -178,6 +178,7 @@ fn initial(root: &mut Table, mut column: Column) -> Result<(Column, Initial), Wr
         column = column.displaced(slides).map_err(|error| {
             let remedy = match error {
                 ColumnError::OffSupport { .. } => "give slides that leave the faces some overlap",
+                ColumnError::Slide { .. } => "give a slide of up to 1e6 m",
                 _ => "give one slide per interface, base first, or leave it out",
             };
             table.wrong("slide", error.to_string(), remedy)

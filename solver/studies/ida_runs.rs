@@ -86,6 +86,7 @@ impl Ida {
     /// # Panics
     /// If the range ends beyond [`Ida::len`].
     pub fn map_runs<T: Send>(&self, range: Range<usize>, made: impl Fn(IdaRun) -> T + Sync) -> Vec<T> {
+        assert!(range.end <= self.len(), "run {} of an analysis that has {}", range.end, self.len());
         let indices = range.into_par_iter().with_min_len(LEAST_RUNS);
         indices.map_init(|| self.worker(), |run, index| made(run(index))).collect()
     }

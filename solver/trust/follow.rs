@@ -78,6 +78,9 @@ pub fn follow(scene: &Scene) -> Result<(Response, Trust), SolveError> {
 ///
 /// # Errors
 /// [`SolveError`] where the scene does not run.
+///
+/// # Panics
+/// If the response is not that of the scene, but has another number of blocks.
 pub fn follow_run(scene: &Scene, response: &Response, asked: TrustOptions) -> Result<Trust, SolveError> {
     follow_run_observed(scene, response, asked, |_| ControlFlow::Continue(()))
 }
@@ -87,6 +90,9 @@ pub fn follow_run(scene: &Scene, response: &Response, asked: TrustOptions) -> Re
 ///
 /// # Errors
 /// [`SolveError`] where the scene does not run; [`SolveError::Cancelled`] where the function ends a run.
+///
+/// # Panics
+/// As [`follow_run`].
 pub fn follow_run_observed(
     scene: &Scene,
     response: &Response,
@@ -103,6 +109,7 @@ fn run_companions(
     asked: TrustOptions,
     progress: &(dyn Fn(f64) -> ControlFlow<()> + Sync),
 ) -> Result<Trust, SolveError> {
+    response.assert_of(&scene.column);
     let run = |scene: &Scene| {
         let mut response = Simulator::new().run_observed(scene, progress)?;
         // What is compared are rows and verdicts, and nine lists of events would fill the memory.

@@ -58,9 +58,16 @@ fn the_same_solver_runs_baked_equations() {
 #[test]
 fn another_column_falls_back_and_says_so() {
     let mut scene = scene().expect("positive sizes");
-    scene.column = Column::equal_blocks(3, 0.4, 1.6, DENSITY, GRAVITY).expect("positive sizes");
-    let response = run(&scene, DynamicsSource::Supplied(column::EQUATIONS)).expect("solved");
-    assert!(response.used_generic);
+    let equal = Column::equal_blocks(3, 0.4, 1.6, DENSITY, GRAVITY).expect("positive sizes");
+    let displaced = scene.column.clone().displaced(vec![0.0, 0.03, 0.0]).expect("on its support");
+    for column in [equal, displaced] {
+        scene.column = column;
+        for friction in [None, Some(Friction::uniform(2.0))] {
+            scene.friction = friction;
+            let response = run(&scene, DynamicsSource::Supplied(column::EQUATIONS)).expect("solved");
+            assert!(response.used_generic);
+        }
+    }
 }
 
 /// Blocks that have slid are another column, on the library's own equations: that is no mistake of the program.

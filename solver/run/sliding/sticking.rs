@@ -108,6 +108,7 @@ impl<'p> Sticking<'p> {
         start.contact.released = (0..joints.len()).filter(is_new).map(|i| (i, start.pattern.0[i])).collect();
         let mut modes = std::mem::take(&mut self.modes);
         modes.prepare(&self.scene, self.problem.skips);
+        modes.after_slides(self.scene.column.slides() != self.problem.scene.column.slides());
         let folded = self.fold(&mut modes, Some(start), rows, progress);
         self.modes = modes;
         Ok(match folded? {
