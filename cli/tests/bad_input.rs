@@ -81,6 +81,11 @@ fn unknown_keys_and_kinds() {
     refused(&with("t_end = 1.0", "t_ned = 1.0"), &["line 9", "`solver.t_ned`", "unknown", "did you mean `t_end`?"]);
     refused(&with("omega = 10.0", "omga = 10.0"), &["line 7", "omga", "unknown", "did you mean `omega`?"]);
     refused(&with("[solver]", "[zzz]"), &["line 8", "`zzz`", "unknown", "known here are", "or remove it"]);
+    // Keys of another table of the scene.
+    refused(&format!("t_end = 2.0\n{SCENE}"), &["line 1", "`t_end`", "unknown", "write it below [solver]"]);
+    refused(&with("t_end = 1.0", "dt = 0.1"), &["line 9", "`solver.dt`", "unknown", "write it below [output]"]);
+    refused(&with("t_end = 1.0", "eta = 0.9"), &["line 9", "`solver.eta`", "write it below [restitution]"]);
+    refused(&with("half_width = 0.4", "t_end = 1.0"), &["line 2", "`block[1].t_end`", "write it below [solver]"]);
     // Names that the field has for keys, and keys in capitals.
     refused(&format!("mu = 0.7\n{SCENE}"), &["line 1", "`mu`", "did you mean `friction`?"]);
     refused(&format!("g = 9.81\n{SCENE}"), &["line 1", "`g`", "did you mean `gravity`?"]);

@@ -451,8 +451,14 @@ impl Table {
         let nearest = self.asked.iter().min_by_key(distance).map(Cow::as_ref);
         let usual = USUAL_NAMES.iter().find(|(other, key)| **other == *unknown.key && self.has_asked(key));
         let meant = usual.map(|(_, key)| *key).or(nearest.filter(|known| is_slip(known, &unknown.key)));
+        let elsewhere = OF_A_TABLE.iter().find(|(table, keys)| {
+            let outermost = self.name.split(['.', '[']).next().unwrap_or_default();
+            let is_in_scene = SCENE_TABLES.contains(&outermost) || self.has_asked(table);
+            is_in_scene && keys.contains(&&*unknown.key)
+        });
         let remedy = match meant {
             Some(known) => format!("did you mean `{known}`?"),
+            None if let Some((table, _)) = elsewhere => format!("write it below [{table}]"),
             None if !self.name.is_empty() && OF_NO_TABLE.contains(&&*unknown.key) => {
                 format!(
                     "move it to the top of the file, above all tables: below the line [{}] it belongs to that table",
@@ -531,6 +537,18 @@ fn hint(message: &str, line: &str) -> &'static str {
 
 /// Keys of a scene that stand in no table.
 const OF_NO_TABLE: [&str; 3] = ["title", "gravity", "friction"];
+
+/// Tables that only scenes have.
+const SCENE_TABLES: [&str; 9] =
+    ["size", "block", "column", "initial", "friction", "restitution", "excitation", "solver", "output"];
+
+/// Tables of a scene, with keys of theirs that no other table has.
+const OF_A_TABLE: [(&str, &[&str]); 4] = [
+    ("solver", &["t_end", "method", "rtol", "atol", "step", "stick_angle", "overturn_angle"]),
+    ("initial", &["theta", "slide", "vx", "vy"]),
+    ("restitution", &["law", "eta", "factors"]),
+    ("output", &["dt", "times", "columns"]),
+];
 
 /// What the field calls keys of a scene, with their names.
 const USUAL_NAMES: [(&str, &str); 3] = [("mu", "friction"), ("g", "gravity"), ("duration", "t_end")];
