@@ -72,6 +72,24 @@ fn a_corner_passes_the_end_of_its_face_once() {
 }
 
 /// Blocks that had parted and touched still were joined without an impulse, and a slide was turned from one face to another: either gave energy.
+/// A slide whose rate is rounding, and which forces stop at once, has a stop: sampled guards found it where the slide had gone back for long, whereupon it
+/// began anew, two thousand times.
+#[test]
+fn slides_that_stop_as_they_begin_stop_once() {
+    let phases = |method: Method| {
+        let response = run_by(method, include_str!("jams_and_edges/slow-slides.toml"));
+        (response.events.len(), response.work.phases)
+    };
+    let (events, by_series) = phases(Method::Taylor);
+    for method in [Method::Dop853, Method::RungeKutta4] {
+        let (own, others) = phases(method);
+        assert!(
+            own.abs_diff(events) <= 5 && others.abs_diff(by_series) <= 10,
+            "{own}, {events}: {others}, {by_series}"
+        );
+    }
+}
+
 #[test]
 fn jams_and_edges_give_no_energy() {
     for text in [include_str!("jams_and_edges/jam-energy.toml"), include_str!("jams_and_edges/edge-energy.toml")] {

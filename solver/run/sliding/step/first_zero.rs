@@ -5,13 +5,14 @@ use super::{Output, Step};
 use crate::friction::chain::{Pose, Rates};
 use crate::friction::gaps::{self, Corner};
 use crate::friction::guards::Guard;
-use crate::friction::joint::{Joint, coincidence};
+use crate::friction::joint::{Joint, Slip, coincidence};
 use crate::friction::search::{ACCELERATION_SHARE, acceleration_scale};
 use crate::mechanics::dynamics::Ground;
 use crate::numerics::guards::first_crossing;
 use crate::numerics::polynomial::powers::Powers;
 use crate::run::sliding::AT_ONCE;
 use crate::run::sliding::contacts::SPEED_SHARE;
+use crate::run::sliding::smooth::Snapshot;
 
 /// Share of its scale below which a guard that starts from zero has not left zero.
 const START_ROUNDING: f64 = 1e-15;
@@ -237,6 +238,12 @@ impl<O: Output> Step<'_, '_, O> {
         if start < -CLEAR_MULTIPLE * noise {
             return Some(0.0);
         }
+        let slowing = self.slowing_at_start(guard);
+        if start > 0.0 && slowing > self.rounding_at_start(guard)[1] {
+            // A slide that is slow from the start and slows down stops where its rate is zero.
+            let soon = (SOON_MULTIPLE * start / slowing).min(limit);
+            return first_crossing(|s| value(self, s), start, soon);
+        }
         let rate = self.rate_at_start(guard);
         if rate < -self.staying(guard) {
             return if start > 0.0 { first_crossing(|s| value(self, s), start, limit) } else { Some(0.0) };
@@ -338,6 +345,15 @@ impl<O: Output> Step<'_, '_, O> {
             }
             _ => 0.0,
         }
+    }
+
+    /// Deceleration of a slide at the start, with the step as the unit of time; zero for other guards.
+    fn slowing_at_start(&mut self, guard: Guard) -> f64 {
+        let Guard::Stop(interface) = guard else { return 0.0 };
+        let Snapshot { configuration, answer, .. } = self.at(0.0, true);
+        let direction = configuration.joints[interface].slip().map_or(0.0, Slip::sign);
+        let acceleration = answer.as_ref().map_or(0.0, |answer| answer.motion.slide[interface]);
+        -self.h * direction * acceleration
     }
 
     /// Whether a corner that may land moves outward along the other block's face at the start, faster than contacts that stay.
