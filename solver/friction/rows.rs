@@ -117,9 +117,12 @@ type Planar = [f64; 3];
 pub struct Rows<'c, 'a> {
     chain: &'c Chain<'a>,
     coordinates: Vec<Coordinate>,
-    /// Motion of each block for a unit rate of each coordinate, coordinate by coordinate. Then, in the same order, the virtual motion along which each
-    /// coordinate is tested: along the lifted face for a slide, the coordinate's own motion otherwise.
-    motions: Vec<Planar>,
+    /// Motion of each block for a unit rate of each coordinate, block by block: of all coordinates the horizontal part, then the vertical one, then the
+    /// rotation.
+    motions: Vec<f64>,
+    /// The virtual motion of each block along which each coordinate is tested, coordinate by coordinate: along the lifted face for a slide, the
+    /// coordinate's own motion otherwise.
+    tests: Vec<Planar>,
     /// Centre or point of each contact `[m]`.
     points: PerBlock<Vec2>,
 }
@@ -129,61 +132,64 @@ impl<'c, 'a> Rows<'c, 'a> {
     /// faces `[m]`.
     pub fn new(chain: &'c Chain<'a>, joints: &[Joint], kinetic: &[f64], centres: &[f64]) -> Rows<'c, 'a> {
         let (coordinates, blocks) = (coordinates(joints), chain.len());
-        let mut motions = vec![[0.0; 3]; 2 * coordinates.len() * blocks];
-        let (columns, tests) = motions.split_at_mut(coordinates.len() * blocks);
-        let both = columns.chunks_exact_mut(blocks).zip(tests.chunks_exact_mut(blocks));
-        for (coordinate, (column, test)) in coordinates.iter().zip(both) {
+        let size = coordinates.len();
+        let (mut motions, mut tests) = (vec![0.0; 3 * size * blocks], vec![[0.0; 3]; size * blocks]);
+        for (place, (coordinate, own)) in coordinates.iter().zip(tests.chunks_exact_mut(blocks)).enumerate() {
             match coordinate {
-                Coordinate::Angle(range) => chain.turned(range.clone(), column),
+                Coordinate::Angle(range) => chain.turned(range.clone(), own),
                 Coordinate::Slide(interface) => {
-                    let lift = joints[*interface].slip().map_or(0.0, Slip::sign) * kinetic[*interface];
-                    let [along, across] = chain.axes(*interface);
-                    column[*interface..].fill([along[0], along[1], 0.0]);
-                    test[*interface..].fill([along[0] + lift * across[0], along[1] + lift * across[1], 0.0]);
-                    continue;
+                    let [along, _] = chain.axes(*interface);
+                    own[*interface..].fill([along[0], along[1], 0.0]);
                 }
-                Coordinate::Apart(interface, 0) => column[*interface..].fill([1.0, 0.0, 0.0]),
-                Coordinate::Apart(interface, _) => column[*interface..].fill([0.0, 1.0, 0.0]),
+                Coordinate::Apart(interface, 0) => own[*interface..].fill([1.0, 0.0, 0.0]),
+                Coordinate::Apart(interface, _) => own[*interface..].fill([0.0, 1.0, 0.0]),
             }
-            test.copy_from_slice(column);
+            for (motion, own) in motions.chunks_exact_mut(3 * size).zip(own.iter()).skip(coordinate.lowest_block()) {
+                (0..3).for_each(|part| motion[part * size + place] = own[part]);
+            }
+            if let Coordinate::Slide(interface) = coordinate {
+                let lift = joints[*interface].slip().map_or(0.0, Slip::sign) * kinetic[*interface];
+                let [along, across] = chain.axes(*interface);
+                own[*interface..].fill([along[0] + lift * across[0], along[1] + lift * across[1], 0.0]);
+            }
         }
-        Rows { chain, coordinates, motions, points: points(chain, joints, centres) }
-    }
-
-    /// `Σ m_j a_j · δr_j + I_j α_j δθ_j` of the motion `(a, α)` of each block, from the lowest block on that moves in both.
-    #[inline(always)]
-    fn work(&self, lowest: usize, test: &[Planar], motion: impl Fn(usize) -> Planar) -> f64 {
-        let blocks = self.chain.column().blocks();
-        let mut sum = 0.0;
-        for j in lowest..blocks.len() {
-            let (block, d, a) = (&blocks[j], test[j], motion(j));
-            sum = sum + block.mass * (a[0] * d[0] + a[1] * d[1]) + block.inertia * a[2] * d[2];
-        }
-        sum
+        Rows { chain, coordinates, motions, tests, points: points(chain, joints, centres) }
     }
 
     /// Rates of the coordinates for which each row has the same work as for the blocks' motions `load`; `None` if the rows are singular.
     fn solve(&self, load: impl Fn(usize) -> Planar) -> Option<Rates> {
         let blocks = self.chain.len();
         let factors = self.factors()?;
-        let (_, tests) = self.motions.split_at(self.coordinates.len() * blocks);
-        let rows = self.coordinates.iter().zip(tests.chunks_exact(blocks));
-        let values = rows.map(|(coordinate, test)| self.work(coordinate.lowest_block(), test, &load));
+        let work = |(coordinate, test): (&Coordinate, &[Planar])| {
+            let moved = self.chain.column().blocks().iter().zip(test).enumerate().skip(coordinate.lowest_block());
+            moved.fold(0.0, |sum, (j, (block, d))| {
+                let a = load(j);
+                sum + block.mass * (a[0] * d[0] + a[1] * d[1]) + block.inertia * a[2] * d[2]
+            })
+        };
+        let values = self.coordinates.iter().zip(self.tests.chunks_exact(blocks)).map(work);
         let mut values: SmallVec<[f64; USUAL_SIZE]> = values.collect();
         factors.solve(&mut values);
         values.iter().all(|x| x.is_finite()).then(|| by_block(&self.coordinates, &values, blocks))
     }
 
-    /// The factorised matrix of the rows; `None` if they are singular.
+    /// The factorised matrix of the rows; `None` if they are singular. An entry is the work `Σ m_j a_j · δr_j + I_j α_j δθ_j` of a unit rate of the
+    /// coordinate of its column on the virtual motion of its row.
     fn factors(&self) -> Option<Factors> {
-        let (size, blocks) = (self.coordinates.len(), self.chain.len());
-        let (columns, tests) = self.motions.split_at(size * blocks);
+        let (size, blocks) = (self.coordinates.len(), self.chain.column().blocks());
         let mut factors = Factors::with_size(size);
-        for (row, test) in tests.chunks_exact(blocks).enumerate() {
-            let lowest = self.coordinates[row].lowest_block();
-            for (column, motion) in columns.chunks_exact(blocks).enumerate() {
-                let lowest = lowest.max(self.coordinates[column].lowest_block());
-                *factors.entry(row, column) = self.work(lowest, test, |block| motion[block]);
+        // Coordinates stand in the order of the lowest blocks that they move.
+        let moving = |block: usize| self.coordinates.partition_point(|coordinate| coordinate.lowest_block() <= block);
+        let moving: PerBlock<usize> = (0..blocks.len()).map(moving).collect();
+        for (row, (coordinate, test)) in self.coordinates.iter().zip(self.tests.chunks_exact(blocks.len())).enumerate()
+        {
+            for j in coordinate.lowest_block()..blocks.len() {
+                let (block, d, entries) = (&blocks[j], test[j], &mut factors.row(row)[..moving[j]]);
+                let parts = &self.motions[3 * size * j..][..3 * size];
+                let (x, y, turn) = (&parts[..size], &parts[size..2 * size], &parts[2 * size..]);
+                for (((entry, x), y), turn) in entries.iter_mut().zip(x).zip(y).zip(turn) {
+                    *entry = *entry + block.mass * (x * d[0] + y * d[1]) + block.inertia * turn * d[2];
+                }
             }
         }
         factors.factorise().map(|()| factors)

@@ -1,6 +1,8 @@
 //! Linear complementarity problems, by Lemke's method: `w = M z + q` with `w >= 0`, `z >= 0` and `w · z = 0`
 //! (Cottle, Pang & Stone, The Linear Complementarity Problem, 1992, section 4.4).
 
+use std::cmp::Ordering;
+
 /// Largest number of pivots per unknown. A method that needs more has failed.
 const PIVOTS_PER_UNKNOWN: usize = 20;
 
@@ -136,9 +138,11 @@ impl Tableau {
         let compare = |a: &usize, b: &usize| {
             let right = ratio(*a, self.deciding()).total_cmp(&ratio(*b, self.deciding()));
             let is_artificial = |row: usize| self.basis[row] == self.artificial();
-            let first = right.then(is_artificial(*b).cmp(&is_artificial(*a)));
-            (0..self.size)
-                .fold(first, |order, column| order.then_with(|| ratio(*a, column).total_cmp(&ratio(*b, column))))
+            let by_column = |column: usize| ratio(*a, column).total_cmp(&ratio(*b, column));
+            let lexicographic = || (0..self.size).map(by_column).find(|order| order.is_ne());
+            right
+                .then(is_artificial(*b).cmp(&is_artificial(*a)))
+                .then_with(|| lexicographic().unwrap_or(Ordering::Equal))
         };
         (0..self.size).filter(is_pivot).min_by(compare)
     }
