@@ -16,12 +16,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     let has_feature = |blocks: &usize| std::env::var_os(format!("CARGO_FEATURE_BLOCKS_{blocks}")).is_some();
     let max_blocks = match std::env::var("ROCKING_MAX_BLOCKS") {
-        Ok(text) => text.trim().parse().map_err(|_| {
-            format!(
-                "ROCKING_MAX_BLOCKS = `{text}` is no number of blocks: choose a whole number from 1 to {}",
-                rocking_codegen::LARGEST
-            )
-        })?,
+        Ok(text) => text.trim().parse().map_err(|_| format!("ROCKING_MAX_BLOCKS = `{text}` is not a whole number"))?,
         Err(_) => (6..=8).rev().find(has_feature).unwrap_or(DEFAULT_MAX_BLOCKS),
     };
     let out = PathBuf::from(std::env::var("OUT_DIR")?);
