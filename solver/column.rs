@@ -231,7 +231,7 @@ pub enum ColumnError {
         interfaces: usize,
     },
     /// A slide that is not finite, or beyond [`LARGEST_SLIDE`].
-    #[error("slide {value:?} m at interface {interface} is out of range")]
+    #[error("slide {value:e} m at interface {interface} is out of range")]
     Slide {
         /// From 1, base first.
         interface: usize,
@@ -324,7 +324,15 @@ impl Column {
     ///
     /// # Errors
     /// [`ColumnError`] if there are more or fewer slides than blocks, one is not finite or beyond [`LARGEST_SLIDE`], or a block is off its support.
-    pub fn displaced(mut self, slides: Vec<f64>) -> Result<Column, ColumnError> {
+    pub fn displaced(self, slides: Vec<f64>) -> Result<Column, ColumnError> {
+        if let Some(index) = slides.iter().position(|slide| slide.abs() > LARGEST_SLIDE) {
+            return Err(ColumnError::Slide { interface: index + 1, value: slides[index] });
+        }
+        self.slid(slides)
+    }
+
+    /// As [`Column::displaced`], with the slides of a run, which have no bound.
+    pub(crate) fn slid(mut self, slides: Vec<f64>) -> Result<Column, ColumnError> {
         if slides.len() != self.blocks.len() {
             return Err(ColumnError::SlideCount { slides: slides.len(), interfaces: self.blocks.len() });
         }
@@ -475,7 +483,7 @@ fn seats(blocks: &[Block], slides: &[f64]) -> Result<Vec<Seat>, ColumnError> {
     let mut centres = Vec::with_capacity(blocks.len());
     for (index, (block, &slide)) in blocks.iter().zip(slides).enumerate() {
         let own = block.bottom_half_width;
-        if slide.is_nan() || slide.abs() > LARGEST_SLIDE {
+        if !slide.is_finite() {
             return Err(ColumnError::Slide { interface: index + 1, value: slide });
         }
         // The ground is unbounded: the lowest block stands on all of its base.

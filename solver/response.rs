@@ -95,7 +95,7 @@ pub struct Event {
     /// What happened.
     pub kind: EventKind,
     /// The interface that caused the event, from 1, the lowest of several: that closed or landed, or whose contact opened, slid, stuck or parted. What else
-    /// changed in the same instant is the difference of `before` and `after`. `None` at a start from rest without sliding.
+    /// changed in the same instant is the difference of `before` and `after`. `None` at a start from rest and at a jump of the ground, without sliding.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub interface: Option<usize>,
     /// All interfaces that caused the event, from 1, where there are several.
@@ -519,7 +519,7 @@ impl Response {
         }
         let remedy = match blocks <= rocking_codegen::LARGEST {
             true => "build with ROCKING_MAX_BLOCKS set to the number of blocks".to_string(),
-            false => format!("they exist up to {} blocks, with ROCKING_MAX_BLOCKS", rocking_codegen::LARGEST),
+            false => format!("generated ones exist up to {} blocks, with ROCKING_MAX_BLOCKS", rocking_codegen::LARGEST),
         };
         format!(
             "this build has generated equations up to {most} blocks; larger modes ran on the generic ones, which are slower ({remedy})"

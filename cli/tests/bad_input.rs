@@ -85,7 +85,12 @@ fn unknown_keys_and_kinds() {
     refused(&format!("t_end = 2.0\n{SCENE}"), &["line 1", "`t_end`", "unknown", "write it below [solver]"]);
     refused(&with("t_end = 1.0", "dt = 0.1"), &["line 9", "`solver.dt`", "unknown", "write it below [output]"]);
     refused(&with("t_end = 1.0", "eta = 0.9"), &["line 9", "`solver.eta`", "write it below [restitution]"]);
-    refused(&with("half_width = 0.4", "t_end = 1.0"), &["line 2", "`block[1].t_end`", "write it below [solver]"]);
+    let in_block = with("half_width = 0.4", "half_width = 0.4\nt_end = 1.0");
+    refused(&in_block, &["line 3", "`block[1].t_end`", "write it below [solver]"]);
+    refused(
+        &with("omega = 10.0", "omega = 10.0\ndt = 0.1"),
+        &["line 8", "`excitation.horizontal.dt`", "known here are"],
+    );
     // Names that the field has for keys, and keys in capitals.
     refused(&format!("mu = 0.7\n{SCENE}"), &["line 1", "`mu`", "did you mean `friction`?"]);
     refused(&format!("g = 9.81\n{SCENE}"), &["line 1", "`g`", "did you mean `gravity`?"]);

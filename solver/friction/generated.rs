@@ -69,7 +69,7 @@ impl Generated {
     pub fn new(column: &Column, configuration: &Configuration, kinetic: &[f64]) -> Option<Generated> {
         let coordinates = coordinates(&configuration.joints);
         let equations = if coordinates.iter().all(|coordinate| matches!(coordinate, Coordinate::Angle(_))) {
-            let displaced = column.clone().displaced(configuration.slide.to_vec()).ok()?;
+            let displaced = column.clone().slid(configuration.slide.to_vec()).ok()?;
             Equations::Sticking(Mode::generated(&displaced, &configuration.pattern())?)
         } else {
             Equations::Moving(Box::new(Moving::new(column, configuration, &coordinates, kinetic)?))

@@ -23,7 +23,7 @@ pub(crate) struct Modes {
     kept: usize,
     /// Work of the present run in phases that were dropped.
     dropped: Work,
-    /// Whether the blocks stand elsewhere than at the start of the run.
+    /// Whether the blocks stand elsewhere than the scene's column: they have slid, or were placed.
     have_slid: bool,
 }
 
@@ -69,7 +69,7 @@ impl Modes {
         true
     }
 
-    /// For motions of a column whose blocks `have_slid` since the start of the run, or have not: to be said before they are entered.
+    /// For motions of a column whose blocks stand elsewhere than the scene's column, or do not: to be said before they are entered.
     pub fn after_slides(&mut self, have_slid: bool) {
         self.have_slid = have_slid;
     }

@@ -451,26 +451,33 @@ impl Table {
         let nearest = self.asked.iter().min_by_key(distance).map(Cow::as_ref);
         let usual = USUAL_NAMES.iter().find(|(other, key)| **other == *unknown.key && self.has_asked(key));
         let meant = usual.map(|(_, key)| *key).or(nearest.filter(|known| is_slip(known, &unknown.key)));
-        let elsewhere = OF_A_TABLE.iter().find(|(table, keys)| {
-            let outermost = self.name.split(['.', '[']).next().unwrap_or_default();
-            let is_in_scene = SCENE_TABLES.contains(&outermost) || self.has_asked(table);
-            is_in_scene && keys.contains(&&*unknown.key)
-        });
-        let remedy = match meant {
-            Some(known) => format!("did you mean `{known}`?"),
-            None if let Some((table, _)) = elsewhere => format!("write it below [{table}]"),
-            None if !self.name.is_empty() && OF_NO_TABLE.contains(&&*unknown.key) => {
+        let remedy = match (meant, self.table_of(&unknown.key)) {
+            (Some(known), _) => format!("did you mean `{known}`?"),
+            (None, Some(table)) => format!("write it below [{table}]"),
+            _ if !self.name.is_empty() && OF_NO_TABLE.contains(&&*unknown.key) => {
                 format!(
                     "move it to the top of the file, above all tables: below the line [{}] it belongs to that table",
                     self.name
                 )
             }
-            None if &*self.name == "excitation" => {
+            _ if &*self.name == "excitation" => {
                 "write it below [excitation.horizontal] or [excitation.vertical]".into()
             }
-            None => format!("known here are {}: take one of these, or remove it", self.asked.join(", ")),
+            _ => format!("known here are {}: take one of these, or remove it", self.asked.join(", ")),
         };
         Err(self.unknown(unknown, remedy))
+    }
+
+    /// The other table of the scene to which a key belongs. `None` for keys of no table in [`OF_A_TABLE`], and where this table is of no scene.
+    fn table_of(&self, key: &str) -> Option<String> {
+        let (table, _) = OF_A_TABLE.iter().find(|(_, keys)| keys.contains(&key))?;
+        // A study has its scene in a table.
+        let (study, name) = match self.name.strip_prefix("scene") {
+            Some(rest) => ("scene.", rest.trim_start_matches('.')),
+            None => ("", &*self.name),
+        };
+        let outermost = name.split(['.', '[']).next().unwrap_or_default();
+        (SCENE_TABLES.contains(&outermost) || self.has_asked(table)).then(|| format!("{study}{table}"))
     }
 
     fn unknown(&self, entry: &Entry, remedy: String) -> Wrong {
@@ -538,11 +545,10 @@ fn hint(message: &str, line: &str) -> &'static str {
 /// Keys of a scene that stand in no table.
 const OF_NO_TABLE: [&str; 3] = ["title", "gravity", "friction"];
 
-/// Tables that only scenes have.
-const SCENE_TABLES: [&str; 9] =
-    ["size", "block", "column", "initial", "friction", "restitution", "excitation", "solver", "output"];
+/// Tables that only scenes have, but for those of the excitation, which have a `dt` of their own.
+const SCENE_TABLES: [&str; 8] = ["size", "block", "column", "initial", "friction", "restitution", "solver", "output"];
 
-/// Tables of a scene, with keys of theirs that no other table has.
+/// Tables of a scene, with keys by which they are known.
 const OF_A_TABLE: [(&str, &[&str]); 4] = [
     ("solver", &["t_end", "method", "rtol", "atol", "step", "stick_angle", "overturn_angle"]),
     ("initial", &["theta", "slide", "vx", "vy"]),

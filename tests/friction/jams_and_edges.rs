@@ -71,7 +71,6 @@ fn a_corner_passes_the_end_of_its_face_once() {
     assert!((series.t_final - steps.t_final).abs() < 1e-9, "{} {}", series.t_final, steps.t_final);
 }
 
-/// Blocks that had parted and touched still were joined without an impulse, and a slide was turned from one face to another: either gave energy.
 /// A slide whose rate is rounding, and which forces stop at once, has a stop: sampled guards found it where the slide had gone back for long, whereupon it
 /// began anew, two thousand times.
 #[test]
@@ -90,6 +89,7 @@ fn slides_that_stop_as_they_begin_stop_once() {
     }
 }
 
+/// Blocks that had parted and touched still were joined without an impulse, and a slide was turned from one face to another: either gave energy.
 #[test]
 fn jams_and_edges_give_no_energy() {
     for text in [include_str!("jams_and_edges/jam-energy.toml"), include_str!("jams_and_edges/edge-energy.toml")] {

@@ -207,7 +207,7 @@ class Run:
     def events(self) -> pd.DataFrame:
         """Impacts, openings and other events, a row each: ``t`` [s], ``kind``, ``interface``, patterns and modes, angles [rad], rates [rad/s] before and after,
         impulses [N s, N m s], ``mirrored`` (whether the pattern after is the mirror image of that of ``mode``) and ``energy_lost``, the share of the kinetic
-        energy that an impact takes. ``interfaces`` are all that changed in the instant, ``"1 3"`` for the first and the third, ``interface`` is the lowest.
+        energy that an impact takes. ``interfaces`` are those that caused the event, ``"1 3"`` for the first and the third, ``interface`` is the lowest.
         ``theta_1``, ``omega_before_1``, ``omega_after_1`` are of the first block, ``normal_impulse_1``, ``tangential_impulse_1``, ``moment_impulse_1`` of the
         first interface.
 

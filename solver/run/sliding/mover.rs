@@ -124,7 +124,7 @@ impl<'p> Mover<'p> {
 
     /// Waits at rest for the ground to start the column.
     fn wait(&mut self, from: &SlidingState, recorder: &mut SlidingRecorder<'p>) -> (SlidingState, SlidingEnded) {
-        let column = self.column().clone().displaced(from.configuration.slide.to_vec());
+        let column = self.column().clone().slid(from.configuration.slide.to_vec());
         let column = column.unwrap_or_else(|_| self.column().clone());
         let ground = self.problem.ground;
         let starts =

@@ -32,7 +32,7 @@ pub fn may_overturn(
     above_rest: f64,
 ) -> bool {
     let (column, options) = (&problem.scene.column, &problem.scene.options);
-    let barrier = |slides: Vec<f64>| Some(column.clone().displaced(slides).ok()?.barrier(options.overturn_angle));
+    let barrier = |slides: Vec<f64>| Some(column.clone().slid(slides).ok()?.barrier(options.overturn_angle));
     if problem.scene.excitation.moves_after(options.t_end) {
         return barrier(slides.to_vec()).is_none_or(|barrier| barrier.is_left(&now.theta));
     }

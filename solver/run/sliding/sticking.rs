@@ -90,7 +90,7 @@ impl<'p> Sticking<'p> {
             return Ok(None);
         }
         if self.scene.column.slides() != &slide[..] {
-            let Ok(column) = self.scene.column.clone().displaced(slide.to_vec()) else { return Ok(None) };
+            let Ok(column) = self.scene.column.clone().slid(slide.to_vec()) else { return Ok(None) };
             self.scene.column = column;
         }
         let pattern = from.configuration.pattern();

@@ -16,7 +16,8 @@ const LEAST_IN_GROUP: usize = 5;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Goodness {
-    /// Pearson's `Σ (k - n p)² / n p (1 - p)` over stripes, or over ten or fewer groups of a cloud (Hosmer and Lemeshow 1980).
+    /// Pearson's `Σ (k - n p)² / n p (1 - p)` over stripes, or over ten or fewer groups of a cloud (Hosmer and Lemeshow 1980); infinite where runs did what
+    /// the curve excludes.
     pub chi_squared: f64,
     /// Stripes or groups less the two parameters.
     pub degrees_of_freedom: usize,

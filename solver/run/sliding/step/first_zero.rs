@@ -38,7 +38,8 @@ const BISECTIONS: usize = 50;
 /// Multiple of the noise of a guard beyond which the guard has certainly left zero, upwards or downwards.
 const CLEAR_MULTIPLE: f64 = 8.0;
 
-/// Multiple of the time in which a gap would close at its rate, up to which a closing is looked for first: gravity delays or hastens it.
+/// Multiple of the time in which a gap would close at its rate, or a slide stop at its deceleration, up to which the zero is looked for first: gravity
+/// delays or hastens it.
 const SOON_MULTIPLE: f64 = 2.0;
 
 /// Share of the step up to which the place is searched for at which a guard has left zero.
@@ -224,9 +225,11 @@ impl<O: Output> Step<'_, '_, O> {
         if !guard.may_start_from_zero() {
             return first_crossing(|s| value(self, s), start, limit);
         }
-        if start > noise {
-            // A gap that is about to close may open again before the first sample.
-            let expected = SOON_MULTIPLE * start / -self.rate_at_start(guard);
+        // A slide that is slow from the start and slows down stops where its rate is zero.
+        let slowing = if start > 0.0 && start <= noise { self.slowing_at_start(guard) } else { 0.0 };
+        if start > noise || slowing > self.rounding_at_start(guard)[1] {
+            // A gap that is about to close may open again before the first sample, as a slide may begin anew.
+            let expected = SOON_MULTIPLE * start / slowing.max(-self.rate_at_start(guard));
             let soon = if expected > 0.0 && expected < limit { expected } else { limit };
             let found = first_crossing(|s| value(self, s), start, soon);
             return if found.is_some() || soon == limit {
@@ -237,12 +240,6 @@ impl<O: Output> Step<'_, '_, O> {
         }
         if start < -CLEAR_MULTIPLE * noise {
             return Some(0.0);
-        }
-        let slowing = self.slowing_at_start(guard);
-        if start > 0.0 && slowing > self.rounding_at_start(guard)[1] {
-            // A slide that is slow from the start and slows down stops where its rate is zero.
-            let soon = (SOON_MULTIPLE * start / slowing).min(limit);
-            return first_crossing(|s| value(self, s), start, soon);
         }
         let rate = self.rate_at_start(guard);
         if rate < -self.staying(guard) {
