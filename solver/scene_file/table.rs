@@ -474,7 +474,7 @@ impl Table {
         // A study has its scene in a table.
         let (study, name) = match self.name.strip_prefix("scene") {
             Some(rest) => ("scene.", rest.trim_start_matches('.')),
-            None => ("", &*self.name),
+            None => ("", self.name.as_ref()),
         };
         let outermost = name.split(['.', '[']).next().unwrap_or_default();
         (SCENE_TABLES.contains(&outermost) || self.has_asked(table)).then(|| format!("{study}{table}"))
