@@ -95,7 +95,7 @@ pub struct Event {
     /// What happened.
     pub kind: EventKind,
     /// The interface that caused the event, from 1, the lowest of several: that closed or landed, or whose contact opened, slid, stuck or parted. What else
-    /// changed in the same instant is the difference of `before` and `after`. `None` at a start from rest and at a jump of the ground, without sliding.
+    /// changed in the same instant is the difference of `before` and `after`. Without sliding, `None` at a start from rest and at a jump.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub interface: Option<usize>,
     /// All interfaces that caused the event, from 1, where there are several.

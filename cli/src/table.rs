@@ -127,8 +127,8 @@ pub fn numbered<S: AsRef<str>>(header: &[S], name: &str) -> Result<Vec<usize>, S
 pub struct Decided {
     /// `None` where the run has no answer, or one that its companions do not determine.
     pub fate: Option<Fate>,
-    /// Whether the column stands where the run is cut: what comes later is not known.
-    pub is_cut: bool,
+    /// Whether the run was truncated: the column stands at its end, and what comes later is not known.
+    pub is_truncated: bool,
     pub row: StringRecord,
 }
 
@@ -140,7 +140,7 @@ pub fn decided(path: &Path) -> std::io::Result<(StringRecord, impl Iterator<Item
         let cell = |column: Option<usize>| column.and_then(|column| row.get(column)).unwrap_or_default();
         let fate =
             Fate::parse(cell(outcome)).filter(|fate| fate.is_decided() && cell(trust) != Degree::NotDetermined.name());
-        Decided { fate, is_cut: cell(truncated) == "true", row }
+        Decided { fate, is_truncated: cell(truncated) == "true", row }
     };
     Ok((header, rows.map(move |row| row.map(decided))))
 }

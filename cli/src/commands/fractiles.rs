@@ -52,7 +52,7 @@ pub fn write(sweep: &Sweep, out: &Path) -> Result<String, Failure> {
     let mut groups: Vec<Group> = Vec::new();
     let mut places: HashMap<Vec<String>, usize> = HashMap::new();
     for (index, row) in rows.enumerate() {
-        let Decided { fate, is_cut, row } = row.map_err(at(Failure::Study, out))?;
+        let Decided { fate, is_truncated, row } = row.map_err(at(Failure::Study, out))?;
         let peaks = peaks.iter().filter_map(|column| row.get(*column)?.parse::<f64>().ok());
         let at = others(sweep, index);
         let place = *places.entry(at.clone()).or_insert(groups.len());
@@ -65,7 +65,7 @@ pub fn write(sweep: &Sweep, out: &Path) -> Result<String, Failure> {
             Some(_) => group.demands.push(peaks.fold(0.0, f64::max)),
             None => group.undecided += 1,
         }
-        group.truncated += usize::from(fate.is_some() && is_cut);
+        group.truncated += usize::from(fate.is_some() && is_truncated);
     }
     let path = table(out);
     let names = FRACTILES.map(|share| format!("peak_{:.0}", 100.0 * share));

@@ -55,14 +55,14 @@ pub fn of(sweep: &Sweep, out: &Path) -> Result<Vec<Lost>, Failure> {
     let (_, rows) = decided(out).map_err(at(Failure::Study, out))?;
     let mut tallies = vec![Tally::default(); sweep.len() / samples];
     for (place, row) in rows.enumerate() {
-        let Decided { fate, is_cut, .. } = row.map_err(at(Failure::Study, out))?;
+        let Decided { fate, is_truncated, .. } = row.map_err(at(Failure::Study, out))?;
         let Some(tally) = tallies.get_mut(place / samples) else { break };
         match fate {
             None => tally.undecided += 1,
             Some(fate) => {
                 tally.runs += 1;
                 tally.lost += usize::from(fate.is_lost());
-                tally.truncated += usize::from(is_cut);
+                tally.truncated += usize::from(is_truncated);
             }
         }
     }
