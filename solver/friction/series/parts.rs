@@ -131,7 +131,7 @@ impl Link {
     #[inline(always)]
     pub(super) fn turning(&self, rates: usize, last: usize) -> f64x2 {
         let terms = self.rate[..rates].iter().zip(self.direction[..=last].iter().rev());
-        -across(terms.fold(f64x2::ZERO, |sum, (rate, direction)| rate * direction + sum))
+        -across(terms.fold(f64x2::ZERO, |sum, (rate, direction)| *rate * *direction + sum))
     }
 }
 
@@ -194,8 +194,8 @@ impl Level {
             let (mut along, mut turned) = (f64x2::ZERO, f64x2::ZERO);
             let directions = link.real[1..=order].iter().rev().zip(link.imaginary[1..=order].iter().rev());
             for (force, (real, imaginary)) in force.iter().zip(directions) {
-                along = force * real + along;
-                turned = force * imaginary + turned;
+                along = *force * *real + along;
+                turned = *force * *imaginary + turned;
             }
             along - across(turned)
         };
