@@ -147,6 +147,10 @@ fn bad_sweeps_name_file_line_key_and_remedy() {
         ("scene = \"base.toml\"\n[axes]\n", vec!["`axes`", "no axis"]),
         ("scene = \"base.toml\"\n[axes]\neta = []\n", vec!["line 3", "no values"]),
         ("scene = \"base.toml\"\n[axes]\neta = { from = 0.1, to = 0.9 }\n", vec!["line 3", "steps"]),
+        (
+            "scene = \"base.toml\"\n[axes]\neta = { from = 0, to = 1, steps = 0 }\n",
+            vec!["line 3", "`axes.eta.steps`", "0 is out of range", "from 1 to 1e7"],
+        ),
         ("scene = \"base.toml\"\n[axes]\neta = { from = 0, to = 1, steps = 3, scale = \"log\" }\n", vec!["zero"]),
         (
             "scene = \"base.toml\"\n[axes]\neta = { from = 0, to = 1, steps = 3, scale = \"lag\" }\n",

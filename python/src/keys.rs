@@ -143,8 +143,9 @@ fn refuse_units_and_complex(key: &str, value: &Bound<'_, PyAny>) -> PyResult<()>
     let Some(dtype) = value.getattr_opt(intern!(py, "dtype"))? else { return Ok(()) };
     let kind = dtype.getattr_opt(intern!(py, "kind"))?.map(|kind| kind.str()).transpose()?;
     let problem = match kind.as_ref().map(|kind| kind.to_str()).transpose()? {
-        Some("m" | "M") => {
-            "has a unit of its own; give numbers in the unit of the key, as value / numpy.timedelta64(1, 's')"
+        Some("m") => "has a unit of its own; give numbers in the unit of the key, as value / numpy.timedelta64(1, 's')",
+        Some("M") => {
+            "is a date; give a number in the unit of the key, for times the seconds since the start of the run"
         }
         Some("c") => "is complex; give real numbers",
         _ => return Ok(()),

@@ -191,6 +191,8 @@ def test_times_with_units_and_complex_numbers_are_refused() -> None:
     ):
         with pytest.raises(TypeError):
             refused()
+    with pytest.raises(TypeError, match="is a date; give a number in the unit of the key"):
+        scene.replace(t_end=np.datetime64("2026-01-01"))
 
 
 def test_what_was_given_may_change_afterwards() -> None:

@@ -348,7 +348,7 @@ pub(crate) fn range(table: &mut Table) -> Result<Vec<Setting>, Wrong> {
         Some(name) if name == "linear" || name == "log" => name == "log",
         Some(name) => return Err(table.no_such("scale", "scale", &name, &["linear", "log"])),
     };
-    let steps = match table.whole("steps", 1)? {
+    let steps = match table.whole_up_to("steps", 1, MOST_VALUES)? {
         Some(steps) => steps as f64,
         None if (to - from).fract() == 0.0 => (to - from).abs() + 1.0,
         None => return Err(table.missing("steps", "say how many values the axis has, both ends among them")),
