@@ -452,7 +452,7 @@ pub struct Fragility {
 }
 
 fn condition(text: &str) -> Result<(String, String), String> {
-    let (column, value) = text.split_once('=').ok_or("write COLUMN=VALUE, e.g. column.alpha=0.2")?;
+    let (column, value) = text.split_once('=').ok_or("write COLUMN=VALUE, e.g. size.alpha=0.2")?;
     Ok((column.trim().into(), value.trim().into()))
 }
 

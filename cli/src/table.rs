@@ -17,7 +17,7 @@ use csv::StringRecord;
 use rocking::Fate;
 use rocking::trust::Degree;
 use std::fs::File;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
 use tidy::Tidy;
 pub use tidy::{INDEX, is_nameless, tidied_cell, tidied_heading};
@@ -82,10 +82,14 @@ pub fn open(path: &Path) -> std::io::Result<Rows> {
             let separator = separator(path)?;
             let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::Headers).delimiter(separator).from_path(path)?;
             let header = reader.headers().map_err(damage)?.clone();
-            let rows = reader.into_records().map(|row| {
-                let row = row.map_err(damage)?;
-                let line = row.position().map_or(0, csv::Position::line);
-                Ok((row, line))
+            let (path, mut records, mut last) = (path.to_path_buf(), reader.into_records(), None);
+            let rows = std::iter::from_fn(move || match records.next() {
+                Some(row) => Some(row.map_err(damage).map(|row| {
+                    last = row.position().cloned();
+                    let line = last.as_ref().map_or(0, csv::Position::line);
+                    (row, line)
+                })),
+                None => last.take().and_then(|last| closed(&path, separator, &last).err()).map(Err),
             });
             tidied(&header, rows, separator)
         }
@@ -166,6 +170,24 @@ fn separator(path: &Path) -> std::io::Result<u8> {
         }
     };
     Err(std::io::Error::new(std::io::ErrorKind::InvalidData, problem))
+}
+
+/// Whether the last row of a table closes its quotes. A reader of CSV takes the end of a file for the quote that is missing.
+fn closed(path: &Path, separator: u8, last: &csv::Position) -> std::io::Result<()> {
+    let mut file = File::open(path)?;
+    file.seek(SeekFrom::Start(last.byte()))?;
+    // One more line is a row of its own, or the rest of the open quote.
+    let row_and_more = file.chain(&b"\nmore"[..]);
+    let mut reader =
+        csv::ReaderBuilder::new().has_headers(false).flexible(true).delimiter(separator).from_reader(row_and_more);
+    match reader.byte_records().count() {
+        1 => {
+            let problem =
+                format!("line {}: a quote is not closed: the table is cut, or a quote is missing", last.line());
+            Err(std::io::Error::new(std::io::ErrorKind::InvalidData, problem))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// What is wrong with a table, by its line.

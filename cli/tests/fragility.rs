@@ -44,6 +44,39 @@ fn fragility_takes_each_run_once_and_only_of_columns_with_the_block() {
     }
 }
 
+/// Of runs that differ by more than their level no record comes back: each run is of a column of its own.
+#[test]
+fn records_of_a_cloud_of_several_columns_are_not_named() {
+    let folder = Folder::new();
+    let rows = |alphas: [f64; 6]| {
+        let run = |(place, alpha): (usize, f64)| {
+            let outcome = if [2, 4].contains(&place) { "overturns" } else { "rocks" };
+            format!("a,{},{alpha},{outcome}\n", 0.1 * (place + 1) as f64)
+        };
+        alphas
+            .into_iter()
+            .enumerate()
+            .map(run)
+            .fold("record,pgv,size.alpha,outcome\n".into(), |table: String, row| table + &row)
+    };
+    let told = |table: String| {
+        folder.write("t.csv", table);
+        folder.succeeds("fragility t.csv --state overturned --replicates 0")
+    };
+    assert!(told(rows([0.2; 6])).contains("reach the state and do not at a higher level (a)"));
+    assert!(!told(rows([0.1, 0.2, 0.15, 0.25, 0.3, 0.12])).contains("higher level"));
+}
+
+/// A doubled measure is named as such: without `--measure` it was asked for, and with it not found.
+#[test]
+fn a_measure_that_is_there_twice_is_refused() {
+    let folder = Folder::with("t.csv", "pgv,pgv,outcome\n0.1,0.1,rocks\n0.3,0.3,overturns\n");
+    for given in ["", " --measure pgv"] {
+        let command = format!("fragility t.csv --state overturned{given}");
+        folder.refused(&command, &["several of its columns are called `pgv`"]);
+    }
+}
+
 /// Tables without the columns of a state, and tables without anything.
 #[test]
 fn tables_without_what_a_state_needs_are_refused() {
@@ -341,11 +374,14 @@ fn tables_that_were_damaged_are_refused_or_have_a_warning() {
     let plain = with(&rows, ",", |_, cell| cell.into());
     let fit = "fragility t.csv --state peak>0.35 --state uplift --replicates 0";
     let body: Vec<&str> = plain.lines().skip(1).collect();
+    let (but_last, last) = plain.trim_end().rsplit_once(',').expect("several columns");
     for (text, named) in [
         (plain.clone() + &plain, "line 32 is the header once more"),
         (plain.replacen("impacts", "outcome", 1), "two of its columns are called `outcome`"),
         (plain.replacen("false", "falsch", 1), "line 2, column `truncated`: `falsch` is neither true nor false"),
         (plain.replacen(",0.4\n", ",\"0.4\n", 1), "a quote is not closed"),
+        (format!("{but_last},\"{last}\n"), "line 31: a quote is not closed"),
+        (format!("{but_last},\"{last}"), "line 31: a quote is not closed"),
         (
             with(
                 &rows,

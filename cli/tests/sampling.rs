@@ -172,6 +172,31 @@ fn bad_distributions_are_refused_with_place_and_remedy() {
     }
 }
 
+/// A value that is wrong beside some values of another axis, and right beside others, is no reason to refuse the sweep: such samples are rows with errors.
+/// Whether a sweep was refused hung on its seed.
+#[test]
+fn samples_that_do_not_fit_together_are_rows_with_errors() {
+    let friction = "friction = { static = [0.6], kinetic = [0.4] }\n";
+    for seed in 0..6 {
+        let sweep = format!(
+            "[sampling]\nsamples = 20\nseed = {seed}\n[axes]\nfriction.static = {{ uniform = [0.3, 0.5] }}\nfriction.kinetic = {{ uniform = [0.2, 0.45] }}\n"
+        );
+        let folder = folder(&sweep);
+        folder.write("scene.toml", format!("{friction}{SCENE}"));
+        folder.succeeds("sweep sweep.toml --out table.csv");
+        let table = folder.table("table.csv");
+        let wrong = table.rows().filter(|row| row.number("friction.kinetic") > row.number("friction.static")).count();
+        let errors = table.rows().filter(|row| row.text("outcome") == "error").count();
+        assert!(errors == wrong && errors < 20, "seed {seed}: {errors} error(s), {wrong} pair(s)");
+    }
+    // No scene takes a negative coefficient, of an item of a list either.
+    let folder = folder(
+        "[sampling]\nsamples = 5\n[axes]\n\"friction.static[1]\" = { normal = [0.1, 0.2] }\nhalf_width = { normal = [0.25, 0.01] }\n",
+    );
+    folder.write("scene.toml", format!("{friction}{SCENE}").replace("kinetic = [0.4]", "kinetic = [0.0]"));
+    folder.refused("sweep sweep.toml --out table.csv", &["axes.friction.static[1]", "sample ", " is -0."]);
+}
+
 /// Rare failures have digits: with four decimals, 5 in a million were 0.0000.
 #[test]
 fn rare_probabilities_are_printed_with_their_digits() {

@@ -505,6 +505,8 @@ fn a_value_of_an_axis_is_not_blamed_on_the_base_scene() {
     folder.succeeds("sweep sweep.toml --out t.csv");
     let table = folder.read("t.csv");
     assert!(table.contains("axis `restitution.eta`: 1.5 is out of range") && !table.contains("base.toml"), "{table}");
+    let told = folder.succeeds("check sweep.toml");
+    assert!(told.contains("point 1: axis `restitution.eta`: 1.5 is out of range"), "{told}");
     folder.refused("sweep sweep.toml --out t.xlsx", &["t.xlsx", "CSV or Parquet"]);
     // Nor is the line of a record that is there; paths of an axis are relative to the base scene.
     folder.write("sub/shaken.toml", format!("{BLOCK}kind = \"record\"\nfile = \"a.AT2\"\n"));

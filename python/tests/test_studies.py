@@ -542,6 +542,10 @@ def test_tables_as_pandas_users_have_them_are_read(recwarn: pytest.WarningsRecor
     cloud["outcome"] = np.where(np.sin(np.arange(40) * 7) + cloud.pgv > 0.8, "overturns", "rocks")
     rk.Study(cloud, "pgv").fragility(replicates=0)
     assert not [warning for warning in recwarn if "make one curve" in str(warning.message)]
+    # Runs of a record that differ by more than their level are of several columns: none of them comes back.
+    runs = pd.DataFrame({"record": "a", "pgv": [0.1, 0.2, 0.3, 0.4], "size.alpha": 0.2, "outcome": ["rocks", "overturns", "rocks", "rocks"]})
+    told = [" ".join(rk.Study(table).fragility(replicates=0).statements) for table in (runs, runs.assign(**{"size.alpha": [0.2, 0.1, 0.3, 0.25]}))]
+    assert "do not at a higher level (a)" in told[0] and "higher level" not in told[1]
 
 
 def test_bands_that_are_not_there_are_none():

@@ -85,7 +85,7 @@ pub struct Fragility {
     pub bands: Option<Bands>,
     /// Pairs of neighbouring levels between which the share of runs with the state falls; empty for a cloud.
     pub falls: Vec<[f64; 2]>,
-    /// Records that reach the state at a level and do not at a higher one.
+    /// Records that reach the state at a level and do not at a higher one; empty where runs of one record are of several columns.
     pub resurrections: Vec<String>,
 }
 
@@ -164,7 +164,7 @@ impl Fragility {
             goodness: curve.map(|curve| Goodness::of(&counts, &curve, layout)),
             bands,
             falls: if layout == Layout::Stripes { falls(&counts) } else { Vec::new() },
-            resurrections: table.resurrections(),
+            resurrections: if options.has_several_columns { Vec::new() } else { table.resurrections() },
             counts,
         })
     }

@@ -11,6 +11,18 @@ pub struct Axis {
     pub values: Vec<Setting>,
 }
 
+impl Axis {
+    /// Whether the axis is a key, or is in the table or list of that name.
+    pub(super) fn is_within(&self, key: &str) -> bool {
+        self.key.strip_prefix(key).is_some_and(|below| below.is_empty() || below.starts_with(['.', '[']))
+    }
+
+    /// Whether the axis is an item of the list of this name: `friction.static[1]` of `friction.static`.
+    pub(super) fn is_item_of(&self, list: &str) -> bool {
+        self.key.strip_prefix(list).is_some_and(|below| below.starts_with('[') && below.ends_with(']'))
+    }
+}
+
 /// Last parts of the keys whose values choose a record. Each run has one record, and fractiles are taken over all records.
 const OF_RECORDS: [&str; 4] = ["file", "record", "component", "seed"];
 

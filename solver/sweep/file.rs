@@ -120,7 +120,7 @@ impl Sweep {
             return Err(root.wrong("axes", problem, remedy));
         }
         if let Some((key, problem, remedy)) = self.misfit() {
-            let axis = self.axes.iter().position(|axis| is_of_axis(&axis.key, &key));
+            let axis = self.axes.iter().position(|axis| axis.is_within(&key));
             return Err(Wrong {
                 place: axis.map_or_else(|| root.find("axes"), |axis| places[axis].clone()),
                 problem: format!("`{key}` of {base}: {problem}"),
@@ -142,18 +142,28 @@ impl Sweep {
         Ok(())
     }
 
-    /// Sampled axis whose smallest or largest sample the scene refuses, and why. Every such sample would be a row with an error.
+    /// Sampled axis whose smallest or largest sample no scene takes, and why. Every such sample would be a row with an error. A sample that the values
+    /// beside it make wrong is such a row and no more: it is tried with those of points all over the sweep.
     fn bad_sample(&self) -> Option<(usize, String)> {
         let number = |setting: &Setting| if let Setting::Number(number) = setting { *number } else { f64::NAN };
         (self.grid().len()..self.axes.len()).find_map(|axis| {
-            let Axis { key, values } = &self.axes[axis];
+            let values = &self.axes[axis].values;
             let by_size = |a: &usize, b: &usize| number(&values[*a]).total_cmp(&number(&values[*b]));
             let extremes = [(0..values.len()).min_by(by_size)?, (0..values.len()).max_by(by_size)?];
-            extremes.into_iter().find_map(|sample| match self.scene(sample).err()? {
-                SceneFileError::Scene { key: own, problem, .. } if is_of_axis(key, &own) => {
-                    Some((axis, format!("sample {sample} is {}: {problem}", values[sample])))
+            extremes.into_iter().find_map(|sample| {
+                let beside = |point: usize| {
+                    let mut settings = self.settings(point);
+                    settings[axis] = &values[sample];
+                    self.scene_of(&settings)
+                };
+                match beside(sample).err()? {
+                    SceneFileError::Scene { key: own, problem, .. } if self.axes[axis].is_within(&own) => {
+                        let is_taken = |point: usize| beside(point).is_ok();
+                        let message = || (axis, format!("sample {sample} is {}: {problem}", values[sample]));
+                        (!self.evenly_spread(POINTS_TRIED).any(is_taken)).then(message)
+                    }
+                    _ => None,
                 }
-                _ => None,
             })
         })
     }
@@ -213,13 +223,8 @@ enum KeysOfPoint {
     Hidden,
 }
 
-/// Largest number of points that are read to find a key that no scene takes.
+/// Largest number of points that are read to find a key, or a value, that no scene takes.
 const POINTS_TRIED: usize = 64;
-
-/// Whether a fault of a key concerns an axis: the key is that of the axis, or a table above it.
-fn is_of_axis(axis: &str, key: &str) -> bool {
-    axis == key || axis.starts_with(&format!("{key}."))
-}
 
 fn too_many(sweep: &Sweep) -> bool {
     let lengths: Vec<usize> = sweep.grid().iter().map(|axis| axis.values.len()).chain(sweep.samples()).collect();

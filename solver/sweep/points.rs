@@ -106,8 +106,13 @@ impl Sweep {
     /// # Panics
     /// If there is no such point.
     pub fn scene(&self, index: usize) -> Result<Scene, SceneFileError> {
+        self.scene_of(&self.settings(index))
+    }
+
+    /// As [`Sweep::scene`], of values of the axes, in their order.
+    pub(super) fn scene_of(&self, settings: &[&Setting]) -> Result<Scene, SceneFileError> {
         let keys = self.axes.iter().map(|axis| axis.key.as_str());
-        let mut scene = self.template.without_rows(keys.zip(self.settings(index)))?;
+        let mut scene = self.template.without_rows(keys.zip(settings.iter().copied()))?;
         scene.options.wanted = match self.ask {
             Ask::Outcome => Wanted::Outcome,
             Ask::Overturns => Wanted::Overturns,

@@ -6,6 +6,7 @@
 //! Points of one thread run one after another. Sixteen points solved at once, with Taylor coefficients in vectors of eight, take longer: events,
 //! contact and set-up remain scalar, and the data of sixteen points displace each other from the cache.
 
+use super::axes::Axis;
 use super::outcome::{Ask, Outcome};
 use super::points::Sweep;
 use crate::run::{Simulator, SolveError};
@@ -101,7 +102,10 @@ impl<'s> Worker<'s> {
     }
 
     fn row(&mut self, index: usize) -> Row {
-        let result = self.run(index).map_err(|error| self.sweep.of_axis(error));
+        let result = self.run(index).map_err(|error| match error {
+            PointError::Scene(refused) => self.sweep.refusal(*refused),
+            error => error,
+        });
         if result.is_err() {
             self.scene = None;
         }
@@ -144,20 +148,31 @@ impl<'s> Worker<'s> {
 }
 
 impl Sweep {
-    /// The error of a point as that of the axis that has the value at fault; the base scene, whose line it names, may have a sound one.
-    fn of_axis(&self, error: PointError) -> PointError {
-        let PointError::Scene(scene) = &error else { return error };
-        let is_axis = |key: &str| self.axes.iter().any(|axis| axis.key == key);
-        match &**scene {
-            SceneFileError::Scene { key, problem, remedy, .. } if is_axis(key) => {
-                PointError::Axis { axis: key.clone(), problem: problem.clone(), remedy: remedy.clone() }
-            }
-            SceneFileError::Record { key, record, problem, .. } if is_axis(key) => {
-                let base = self.template.file().display().to_string();
-                let problem = problem.replace(FILE_THAT_NAMES, &base);
-                PointError::Record { axis: key.clone(), record: record.clone(), problem }
-            }
-            _ => error,
+    /// Why the scene of a point is refused: by the axis that has the value at fault, if one has; the base scene, whose line the error of the scene names,
+    /// may have a sound one.
+    pub fn refusal(&self, error: SceneFileError) -> PointError {
+        // Of several axes of one list it is not known which is at fault.
+        let axis_of = |key: &str| {
+            let within: Vec<&Axis> = self.axes.iter().filter(|axis| axis.key == key || axis.is_item_of(key)).collect();
+            if let [axis] = within[..] { Some(axis.key.clone()) } else { None }
+        };
+        match error {
+            SceneFileError::Scene { ref key, ref problem, ref remedy, .. } => match axis_of(key) {
+                Some(axis) => PointError::Axis { axis, problem: problem.clone(), remedy: remedy.clone() },
+                None => error.into(),
+            },
+            SceneFileError::Record { ref key, ref record, ref problem, .. } => match axis_of(key) {
+                Some(axis) => {
+                    let base = self.template.file().display().to_string();
+                    PointError::Record {
+                        axis,
+                        record: record.clone(),
+                        problem: problem.replace(FILE_THAT_NAMES, &base),
+                    }
+                }
+                None => error.into(),
+            },
+            error => error.into(),
         }
     }
 

@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 
 /// Fits, prints, writes and draws.
 pub fn fragility(request: &arguments::Fragility) -> Result<(), Failure> {
-    let Runs { measure, runs, warnings, peaks, has_slides } =
+    let Runs { measure, runs, warnings, has_several_columns, peaks, has_slides } =
         runs::read(&request.table, request.measure.as_deref(), &request.conditions)?;
     let refused = |problem: String| Failure::Study(request.table.clone(), problem);
     let states = match &request.state[..] {
@@ -33,7 +33,7 @@ pub fn fragility(request: &arguments::Fragility) -> Result<(), Failure> {
     let mut options = FragilityOptions::default();
     (options.replicates, options.confidence, options.seed) =
         (request.replicates as usize, request.confidence, request.seed);
-    options.layout = request.layout;
+    (options.layout, options.has_several_columns) = (request.layout, has_several_columns);
     options.check().map_err(Failure::Bands)?;
     // Curves of some of the rows do not take the place of those of all.
     let kind = if request.conditions.is_empty() { "fragility" } else { "where-fragility" };
@@ -61,7 +61,7 @@ pub fn fragility(request: &arguments::Fragility) -> Result<(), Failure> {
 fn lacking(state: &LimitState, peaks: usize, has_slides: bool) -> Option<String> {
     match state {
         LimitState::Peak { .. } if peaks == 0 => {
-            Some("needs the columns peak_1, ...: run the sweep with ask = \"peaks\"".into())
+            Some("needs the columns peak_1, ...: run the sweep with ask = \"peaks\", or give --state overturned".into())
         }
         LimitState::Peak { block: Some(block), .. } if *block > peaks => {
             Some(format!("needs the column peak_{block}, and the columns of the table have {peaks} block(s)"))

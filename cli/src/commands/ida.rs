@@ -131,7 +131,8 @@ pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<Option<String
     let read = runs::read(table, None, &[])?;
     warn(&read.warnings);
     let label = read.measure.parse().map_or(read.measure.clone(), |intensity: Intensity| intensity.label());
-    let (states, options) = asked(table)?.unwrap_or_else(|| (DEFAULT_STATES.to_vec(), FragilityOptions::default()));
+    let (states, mut options) = asked(table)?.unwrap_or_else(|| (DEFAULT_STATES.to_vec(), FragilityOptions::default()));
+    options.has_several_columns = read.has_several_columns;
     let conclusions = Conclusions::of(&read.runs, &read.measure, &states, &options);
     let pictures = [
         (plot::ida(&label, &read.runs, &stripes(&read.runs), paper), picture),

@@ -205,6 +205,8 @@ class Runs:
     uplift: list[bool] | None
     peaks: "Array"
     slides: "Array"
+    #: Whether runs of one record differ by more than their level, as those of several columns do.
+    has_several_columns: bool
 
 
 #: Largest number of values of an axis whose rows may have been pooled by mistake: a column with more of them is none.
@@ -372,8 +374,9 @@ class Study:
         settings = [name for name in _settings(table) if name != "index"]
         # Beside the scale of the record other measures are properties of the scaled record.
         measures = [name for name in names if "scale" in names and _rocking.measure_label(name) is not None]
-        for name in (name for name in settings if name not in ("scale", self.measure, *measures)):
-            count = 1 if name in of_records else table[name].nunique(dropna=False)
+        others = [name for name in settings if name not in ("scale", self.measure, *measures, *of_records)]
+        for name in others:
+            count = table[name].nunique(dropna=False)
             # A value of its own for each record is a property of the record, such as its PGA; nor has an axis nearly as many values as there are runs.
             own = table[[*of_records, name]].drop_duplicates() if of_records else ()
             is_of_record = len(own) == count == len(set(records))
@@ -427,6 +430,7 @@ class Study:
             uplift=uplift,
             peaks=peaks,
             slides=slides,
+            has_several_columns=bool((table[others].groupby(np.array(records)).nunique(dropna=False) > 1).any(axis=None)) if others else False,
         )
 
     @property

@@ -51,7 +51,7 @@ impl ScenesRead {
                 }
                 Err(error) => {
                     found.refused += 1;
-                    found.first_refusal.get_or_insert_with(|| format!("point {index}: {error}"));
+                    found.first_refusal.get_or_insert_with(|| format!("point {index}: {}", sweep.refusal(error)));
                 }
             }
         }

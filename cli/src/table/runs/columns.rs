@@ -163,14 +163,16 @@ fn level(names: &[String], measure: Option<&str>) -> Result<usize, String> {
     let wanted: Vec<usize> = (0..names.len()).filter(|place| is_wanted(&names[*place])).collect();
     match (&wanted[..], measure) {
         ([level], _) => Ok(*level),
-        (_, Some(measure)) => Err(format!("there is no column `{measure}`; it has {}", known())),
+        ([], Some(measure)) => Err(format!("there is no column `{measure}`; it has {}", known())),
+        (_, Some(measure)) => Err(format!("several of its columns are called `{measure}`; remove all but one")),
         ([], None) => Err(format!("no column has the name of a measure; choose one of {} with --measure", known())),
         (several, None) => {
             // A study has its measure beside the scale of the record; others may be properties of the records.
             let of_study = several.iter().find(|place| **place > 0 && names[**place - 1] == SCALE);
             let several: Vec<&str> = several.iter().map(|place| names[*place].as_str()).collect();
-            of_study.copied().ok_or_else(|| {
-                format!("several columns are measures; choose one of {} with --measure", several.join(", "))
+            of_study.copied().ok_or_else(|| match several.iter().all(|name| *name == several[0]) {
+                true => format!("several of its columns are called `{}`; remove all but one", several[0]),
+                false => format!("several columns are measures; choose one of {} with --measure", several.join(", ")),
             })
         }
     }
