@@ -471,6 +471,24 @@ fn slides_of_blocks_that_are_placed_are_refused() {
     let folder = Folder::with("scene.toml", &format!("{column}{placed}"));
     folder.refused("check scene.toml", &["line 11", "initial.slide", "leave it out"]);
     folder.write("scene.toml", format!("{column}{}", placed.replace("0.3]", "0.0]")));
+    // Stacks and thresholds are not those of where the blocks are placed.
+    for command in ["check scene.toml", "thresholds scene.toml"] {
+        let told = folder.succeeds(command);
+        assert!(told.contains("x and y place the blocks; stacks,"), "{told}");
+    }
+}
+
+/// A sampling interval is at fault, not the samples; a sum within a sum is headed as TOML has it.
+#[test]
+fn keys_of_ground_motions_are_blamed_and_headed_rightly() {
+    let block = "[[block]]\nhalf_width = 0.3\nhalf_height = 1.5\n[excitation.horizontal]\n";
+    let folder = Folder::with("scene.toml", &format!("{block}kind = \"record\"\naccel = [0, 1, 0]\ndt = 1.5e6\n"));
+    folder.refused("check scene.toml", &["line 7", "`excitation.horizontal.dt`", "from 1e-100 to 1e6"]);
+    let sum = format!("{block}kind = \"sum\"\n[[excitation.horizontal.term]]\nkind = \"sum\"\n");
+    folder.write("scene.toml", &sum);
+    folder.refused("check scene.toml", &["add [[excitation.horizontal.term.term]] for each"]);
+    let term = "kind = \"ricker\"\namplitude_g = 0.3\nperiod = 1.0\n";
+    folder.write("scene.toml", format!("{sum}[[excitation.horizontal.term.term]]\n{term}"));
     folder.succeeds("check scene.toml");
 }
 

@@ -18,6 +18,21 @@ fn a_sweep_file_is_checked_as_a_sweep() {
     folder.refused("check sweep.toml", &["base.toml", "restitution.eta"]);
 }
 
+/// Zeros at the end of a record are no motion that a run leaves out.
+#[test]
+fn zeros_at_the_end_of_a_record_are_not_called_cut() {
+    let scene = |samples: &str| {
+        format!(
+            "[[block]]\nhalf_width = 0.3\nhalf_height = 1.5\n[excitation.horizontal]\nkind = \"record\"\naccel = [0, 3, -3, {samples}]\ndt = 1.0\n[solver]\nt_end = 13.0\n"
+        )
+    };
+    for (sample, is_cut) in [("0, ", false), ("1, ", true)] {
+        let folder = Folder::with("scene.toml", &scene(&sample.repeat(20)));
+        let told = folder.succeeds("check scene.toml");
+        assert_eq!(told.contains("that is after the end of the run"), is_cut, "{told}");
+    }
+}
+
 /// The column of the paper: p = 2.14 rad/s, slenderness 0.25, thresholds of its tables.
 #[test]
 fn a_check_explains_the_papers_column() {

@@ -16,6 +16,18 @@ fn run(scene: &str) -> (Folder, String) {
     (folder, told)
 }
 
+/// A column that overturns before the first row is a result: what is to be drawn is missing, and nothing has failed.
+#[test]
+fn a_run_without_rows_has_results_and_no_figures() {
+    let scene = "[[block]]\nhalf_width = 0.3\nhalf_height = 1.5\n[excitation.horizontal]\nkind = \"sine-pulse\"\namplitude_g = 1.5\nperiod = 1.0\n[output]\ntimes = [9.0]\n";
+    let folder = Folder::with("s.toml", scene);
+    let (told, warned) = folder.says("run s.toml --no-trust --plots --report");
+    assert_has(&told, &["overturns", "wrote summary.json, response.csv, events.json to out"]);
+    assert_has(&warned, &["no figures and no report", "before the first of `output.times`"]);
+    assert!(folder.has("out/summary.json") && !folder.has("out/report.html"));
+    folder.refused("plot out", &["there are no rows"]);
+}
+
 #[test]
 fn angles_are_drawn_in_degrees_on_request() {
     let (folder, _) = run(STATUE);

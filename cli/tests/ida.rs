@@ -333,6 +333,10 @@ fn bad_studies_are_refused_with_place_and_remedy() {
             vec!["records.synthetic.seeds", "1000000 records", "give fewer seeds"],
         ),
         (
+            with("[0.5]", "[records.synthetic]\nseeds = [1]\nstart = 1\n"),
+            vec!["records.synthetic.start", "known here are seeds, duration, dt"],
+        ),
+        (
             with("[0.5]", &format!("{records}[fragility]\nstates = [\"toppled\"]\n")),
             vec!["fragility.states", "peak > 0.35"],
         ),

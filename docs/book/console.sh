@@ -29,7 +29,7 @@ for chapter in "$@"; do
             :'```console') block=console ;;
             :'```'*) block=other ;;
             *:'```') block= file= ;;
-            toml:'# file: '*) file="$folder/${line#\# file: }"; : > "$file" ;;
+            toml:'# file: '*) file="$folder/${line#\# file: }"; printf '%s\n' "$line" > "$file" ;;
             toml:*) if [ -n "$file" ]; then printf '%s\n' "$line" >> "$file"; fi ;;
             console:'$ '*)
                 printf '%s\n' "$line"

@@ -601,7 +601,9 @@ fn tables_are_refused_where_they_leave_a_choice_or_are_uneven() {
     let g = TextOptions { units: Some(AccelerationUnit::G), ..options() };
     let error = |text: &str, options: &TextOptions| refused(text.as_bytes(), options).to_string();
     let several = error(&text("table/three-columns.csv"), &options());
-    assert!(several.contains("t, h1, up") && several.contains("`column`"), "{several}");
+    assert!(several.contains("choose one of h1, up with `column`"), "{several}");
+    let spectrum = error("time [s],Sa [g]\n0.0,0.1\n0.1,0.2\n0.2,0.1\n", &options());
+    assert!(spectrum.contains("column `Sa` is no acceleration of the ground"), "{spectrum}");
     let absent = TextOptions { column: Some("h3".into()), ..options() };
     assert!(error(&text("table/three-columns.csv"), &absent).contains("no column `h3`"));
     let twice = error("t, a, a\n0, 1, 2\n0.1, 2, 3\n", &TextOptions { column: Some("a".into()), ..g.clone() });

@@ -136,7 +136,11 @@ impl Reader<'_> {
     fn sum(&self, table: &mut Table, column: &Column) -> Result<Motion, Fault> {
         let mut tables = table.tables("term")?.unwrap_or_default();
         if tables.is_empty() {
-            let remedy = format!("add [[{}]] for each motion of the sum", table.dotted("term"));
+            // A table in a list has a number in its key, and none in its heading.
+            let key = table.dotted("term");
+            let heading: String =
+                key.split('[').map(|part| part.split_once(']').map_or(part, |(_, rest)| rest)).collect();
+            let remedy = format!("add [[{heading}]] for each motion of the sum");
             return Err(table.missing("term", &remedy).into());
         }
         let mut term = |table: &mut Table| -> Result<Motion, Fault> {
@@ -163,8 +167,10 @@ impl Reader<'_> {
             (None, Some(accel)) => {
                 let Some(dt) = dt else { return Err(table.missing("dt", "give the sampling interval in s").into()) };
                 let unit = units.unwrap_or(AccelerationUnit::MetrePerSecondSquared);
-                let refused =
-                    |error: crate::RecordError| table.wrong("accel", error.to_string(), "correct the samples");
+                let refused = |error: RecordError| match error {
+                    RecordError::Interval { .. } => table.wrong("dt", error.to_string(), "correct it"),
+                    error => table.wrong("accel", error.to_string(), "correct the samples"),
+                };
                 (Record::from_samples(&accel, unit, dt, gravity).map_err(refused)?, "accel")
             }
             (Some(_), Some(_)) => {
@@ -190,7 +196,8 @@ impl Reader<'_> {
 
     /// A record of filtered noise, scaled to a size that the scene must give.
     fn synthetic(&self, table: &mut Table, column: &Column) -> Result<Record, Wrong> {
-        let (start, mut synthetic) = (start(table)?, noise(table)?);
+        let (start, seed) = (start(table)?, table.whole("seed", 0)?.unwrap_or(0));
+        let mut synthetic = Synthetic { seed, ..noise(table)? };
         let Some(target) = target(table, column)? else {
             let remedy = format!("give one of {}", NAMES.map(|name| format!("`{name}`")).join(", "));
             return Err(table.missing("pga", &remedy));
@@ -424,9 +431,9 @@ fn pulse(table: &mut Table, kind: &str, scales: Scales) -> Result<Motion, Wrong>
     })
 }
 
-/// Filtered noise from a seed.
+/// Filtered noise, of the seed 0.
 pub(crate) fn noise(table: &mut Table) -> Result<Synthetic, Wrong> {
-    let mut synthetic = Synthetic { seed: table.whole("seed", 0)?.unwrap_or(0), ..Synthetic::default() };
+    let mut synthetic = Synthetic::default();
     for (key, number) in [
         ("duration", &mut synthetic.duration),
         ("dt", &mut synthetic.dt),

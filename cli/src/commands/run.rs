@@ -54,7 +54,14 @@ pub fn run(request: &Run) -> Result<(), Failure> {
         warn(&finished.warnings);
     }
     // Before anything is printed: a pipe that is closed loses no figure.
-    let drawn = drawn(request);
+    let drawn = match response.samples.is_empty() {
+        true if request.plots || request.report => {
+            warn(&["no figures and no report, as there are no rows: the run ends before the first of `output.times`"
+                .into()]);
+            Ok(Vec::new())
+        }
+        _ => drawn(request),
+    };
     match (request.quiet, request.json) {
         (true, _) => {}
         (false, true) => json_text(&folder.summary()?)?,

@@ -22,6 +22,16 @@ pub struct Row {
     pub housner_ratio: f64,
 }
 
+/// The note that a scene with given places of its blocks is described as if these stood on each other; nothing for another scene.
+pub fn note_of_places(scene: &Scene) -> &'static str {
+    match scene.initial.x.is_empty() {
+        true => "",
+        false => {
+            "note: x and y place the blocks; stacks, and what opens or slides, are of the column as if it stood at rest, each block in the middle of the one below (`slide` displaces it)\n"
+        }
+    }
+}
+
 /// All interfaces of a scene's column, base first.
 pub fn rows(scene: &Scene) -> Vec<Row> {
     let row = |interface: usize| {
@@ -57,5 +67,6 @@ pub fn thresholds(scene: &Scene) -> String {
             uplift_acceleration / stack.gravity
         );
     }
+    text.push_str(note_of_places(scene));
     text
 }

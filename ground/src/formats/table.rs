@@ -202,7 +202,8 @@ const FEWEST_OF_WRAPPED: usize = 4;
 fn acceleration_column(rows: &Rows, options: &TextOptions) -> Result<usize, RecordError> {
     let (headings, columns) = (rows.headings.1.as_slice(), rows.columns);
     let unclear = |column: &str| {
-        let names: Vec<String> = headings.iter().map(Heading::component).collect();
+        let may_be = |heading: &&Heading| heading.quantity().is_none_or(|quantity| quantity == Quantity::Acceleration);
+        let names: Vec<String> = headings.iter().filter(may_be).map(Heading::component).collect();
         let known = if names.is_empty() { format!("1 to {columns}") } else { listed(&names) };
         RecordError::NoColumn { column: column.into(), known }
     };
@@ -234,8 +235,8 @@ fn acceleration_column(rows: &Rows, options: &TextOptions) -> Result<usize, Reco
                 ([only], _) => Ok(*only),
                 // The only column beside the time.
                 ([], [only]) if columns == 2 && times.len() == 1 => Ok(*only),
-                // No column can be the acceleration: the refusal names one.
-                ([], []) => Ok(*others.first().unwrap_or(&0)),
+                // No column can be the acceleration: the refusal names one, a time last.
+                ([], []) => Ok(*others.first().or(with(Some(Quantity::Spectrum)).first()).unwrap_or(&0)),
                 _ => Err(unclear("")),
             }
         }

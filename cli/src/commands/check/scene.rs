@@ -277,6 +277,7 @@ impl Findings {
         self.column(&mut text, scene);
         if let Some(state) = initial(scene) {
             let _ = writeln!(text, "\nat t = 0: {state}");
+            text.push_str(thresholds::note_of_places(scene));
         }
         self.ground(&mut text, scene);
         self.friction(&mut text, scene);
@@ -586,7 +587,8 @@ impl MotionFindings {
             false => "beyond what numbers hold".into(),
         };
         let _ = writeln!(text, "  ends at {end:.4} s; the ground is left {left}");
-        if end > t_end {
+        // Zeros at the end of a record are no motion.
+        if self.motion.still_from().is_some_and(|still| still > t_end) {
             let _ = writeln!(text, "  note: that is after the end of the run, solver.t_end");
         }
     }
