@@ -4,6 +4,7 @@
 //! `parquet` of this crate; without it, a table whose name ends in `.parquet` is refused.
 
 pub mod column;
+mod delimited;
 pub mod growing;
 #[cfg(feature = "parquet")]
 pub mod parquet;
@@ -14,10 +15,9 @@ use crate::error::Failure;
 use crate::files::{LARGEST_TABLE, check};
 use column::{OUTCOME, Rows, TRUNCATED, TRUST};
 use csv::StringRecord;
+use delimited::Csv;
 use rocking::Fate;
 use rocking::trust::Degree;
-use std::fs::File;
-use std::io::{BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
 use tidy::Tidy;
 pub use tidy::{INDEX, is_nameless, tidied_cell, tidied_heading};
@@ -79,18 +79,7 @@ pub fn open(path: &Path) -> std::io::Result<Rows> {
     }
     match Format::of(path).map_err(std::io::Error::other)? {
         Format::Csv => {
-            let separator = separator(path)?;
-            let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::Headers).delimiter(separator).from_path(path)?;
-            let header = reader.headers().map_err(damage)?.clone();
-            let (path, mut records, mut last) = (path.to_path_buf(), reader.into_records(), None);
-            let rows = std::iter::from_fn(move || match records.next() {
-                Some(row) => Some(row.map_err(damage).map(|row| {
-                    last = row.position().cloned();
-                    let line = last.as_ref().map_or(0, csv::Position::line);
-                    (row, line)
-                })),
-                None => last.take().and_then(|last| closed(&path, separator, &last).err()).map(Err),
-            });
+            let Csv { header, rows, separator } = Csv::open(path)?;
             tidied(&header, rows, separator)
         }
         #[cfg(feature = "parquet")]
@@ -147,60 +136,4 @@ pub fn decided(path: &Path) -> std::io::Result<(StringRecord, impl Iterator<Item
         Decided { fate, is_truncated: cell(truncated) == "true", row }
     };
     Ok((header, rows.map(move |row| row.map(decided))))
-}
-
-/// Longest first line of a table `[B]`: a file without line breaks is none.
-const LONGEST_HEADER: u64 = 1 << 20;
-
-/// The separator of the cells, that of the first line: a comma, a semicolon or a tab. Refuses a file whose first line is no header of a table.
-fn separator(path: &Path) -> std::io::Result<u8> {
-    let mut line = Vec::new();
-    BufReader::new(File::open(path)?).take(LONGEST_HEADER).read_until(b'\n', &mut line)?;
-    let problem = match line.len() as u64 {
-        LONGEST_HEADER.. => "its first line is longer than a megabyte: it is no table",
-        _ if line.starts_with(&[0xff, 0xfe]) || line.starts_with(&[0xfe, 0xff]) => {
-            "it is UTF-16 text; save it as CSV in UTF-8"
-        }
-        _ if line.contains(&0) => "its first line has zero bytes: it is no table, or was not written to its end",
-        _ if line.starts_with(b"sep=") => "its first line is no header; remove it",
-        _ => {
-            let count = |separator: &u8| line.iter().filter(|byte| *byte == separator).count();
-            // Of equally many the last: a comma, also where there is none.
-            return Ok([b'\t', b';', b','].into_iter().max_by_key(count).unwrap_or(b','));
-        }
-    };
-    Err(std::io::Error::new(std::io::ErrorKind::InvalidData, problem))
-}
-
-/// Whether the last row of a table closes its quotes. A reader of CSV takes the end of a file for the quote that is missing.
-fn closed(path: &Path, separator: u8, last: &csv::Position) -> std::io::Result<()> {
-    let mut file = File::open(path)?;
-    file.seek(SeekFrom::Start(last.byte()))?;
-    // One more line is a row of its own, or the rest of the open quote.
-    let row_and_more = file.chain(&b"\nmore"[..]);
-    let mut reader =
-        csv::ReaderBuilder::new().has_headers(false).flexible(true).delimiter(separator).from_reader(row_and_more);
-    match reader.byte_records().count() {
-        1 => {
-            let problem =
-                format!("line {}: a quote is not closed: the table is cut, or a quote is missing", last.line());
-            Err(std::io::Error::new(std::io::ErrorKind::InvalidData, problem))
-        }
-        _ => Ok(()),
-    }
-}
-
-/// What is wrong with a table, by its line.
-fn damage(error: csv::Error) -> std::io::Error {
-    let line = error.position().map_or(0, csv::Position::line);
-    let problem = match error.kind() {
-        csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
-            format!(
-                "line {line} has {len} cell(s) and the lines above have {expected_len}: it is cut, or not of this table"
-            )
-        }
-        csv::ErrorKind::Utf8 { .. } => format!("line {line} is not UTF-8 text; save the table as UTF-8"),
-        _ => return error.into(),
-    };
-    std::io::Error::new(std::io::ErrorKind::InvalidData, problem)
 }

@@ -179,7 +179,7 @@ fn samples_that_do_not_fit_together_are_rows_with_errors() {
     let friction = "friction = { static = [0.6], kinetic = [0.4] }\n";
     for seed in 0..6 {
         let sweep = format!(
-            "[sampling]\nsamples = 20\nseed = {seed}\n[axes]\nfriction.static = {{ uniform = [0.3, 0.5] }}\nfriction.kinetic = {{ uniform = [0.2, 0.45] }}\n"
+            "[sampling]\nsamples = 20\nseed = {seed}\n[axes]\nfriction.static = {{ uniform = [0.3, 0.5] }}\nfriction.kinetic = {{ uniform = [0.2, 0.51] }}\n"
         );
         let folder = folder(&sweep);
         folder.write("scene.toml", format!("{friction}{SCENE}"));
@@ -189,12 +189,20 @@ fn samples_that_do_not_fit_together_are_rows_with_errors() {
         let errors = table.rows().filter(|row| row.text("outcome") == "error").count();
         assert!(errors == wrong && errors < 20, "seed {seed}: {errors} error(s), {wrong} pair(s)");
     }
-    // No scene takes a negative coefficient, of an item of a list either.
+    // A negative coefficient is none of any scene, of an item of a list either. What the base scene has at another item is not the sample's fault.
     let folder = folder(
         "[sampling]\nsamples = 5\n[axes]\n\"friction.static[1]\" = { normal = [0.1, 0.2] }\nhalf_width = { normal = [0.25, 0.01] }\n",
     );
     folder.write("scene.toml", format!("{friction}{SCENE}").replace("kinetic = [0.4]", "kinetic = [0.0]"));
     folder.refused("sweep sweep.toml --out table.csv", &["axes.friction.static[1]", "sample ", " is -0."]);
+    let two = SCENE.replace("blocks = 1", "blocks = 2");
+    folder.write("scene.toml", format!("friction = {{ static = [0.6, 0.6], kinetic = [0.4, 0.5] }}\n{two}"));
+    folder.write("sweep.toml", "scene = \"scene.toml\"\n[sampling]\nsamples = 5\n[axes]\n\"friction.kinetic[1]\" = { uniform = [0.2, 0.3] }\n\"friction.static[2]\" = { uniform = [0.3, 0.6] }\n");
+    folder.succeeds("sweep sweep.toml --out table.csv");
+    let table = folder.table("table.csv");
+    let error =
+        table.rows().map(|row| row.text("error")).find(|error| !error.is_empty()).expect("a pair that does not fit");
+    assert!(error.contains("0.5 is above the static coefficient") && !error.contains("axis `"), "{error}");
 }
 
 /// Rare failures have digits: with four decimals, 5 in a million were 0.0000.

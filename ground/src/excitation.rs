@@ -9,9 +9,6 @@ use crate::spans::{Span, divide, overlay};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
-/// Bound of the relative rounding error of a time that is computed as a start plus a number of intervals.
-const ROUNDING_OF_TIME: f64 = 1e-12;
-
 /// Longest time `[s]` between the first samples of two components of one record. More apart, the records are of different earthquakes.
 const LONGEST_RECORDING: f64 = 600.0;
 
@@ -80,7 +77,7 @@ impl Excitation {
 
     /// Whether the ground motion ends later than `t` `[s]`, by more than the rounding of `t`, or has no end.
     pub fn moves_after(&self, t: f64) -> bool {
-        self.still_from().is_none_or(|still| still > t * (1.0 + ROUNDING_OF_TIME))
+        [&self.horizontal, &self.vertical].into_iter().flatten().any(|motion| motion.moves_after(t))
     }
 
     /// The segments that cover `0 .. t_end` `[s]`, in order, without gaps.

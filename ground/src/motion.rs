@@ -16,6 +16,9 @@ use serde::{Deserialize, Serialize, Serializer};
 use smallvec::{SmallVec, smallvec};
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 
+/// Bound of the relative rounding error of a time that is computed as a start plus a number of intervals.
+const ROUNDING_OF_TIME: f64 = 1e-12;
+
 /// Ground acceleration of one component.
 ///
 /// Parameters: `amplitude [m/s²]`, `velocity [m/s]`, `omega [rad/s]`, `start` and `duration [s]`, `phase [rad]`; `cycles` and `gamma` are
@@ -254,6 +257,11 @@ impl Motion {
             }
             _ => self.end(),
         }
+    }
+
+    /// Whether the acceleration is not yet zero for good at `t` `[s]`, but for the rounding of times.
+    pub fn moves_after(&self, t: f64) -> bool {
+        self.still_from().is_none_or(|still| still > t * (1.0 + ROUNDING_OF_TIME))
     }
 
     /// Time up to which the acceleration is zero `[s]`: the start of the motion, but for a record the last of the zeros at its start.

@@ -602,6 +602,9 @@ fn tables_are_refused_where_they_leave_a_choice_or_are_uneven() {
     let error = |text: &str, options: &TextOptions| refused(text.as_bytes(), options).to_string();
     let several = error(&text("table/three-columns.csv"), &options());
     assert!(several.contains("choose one of h1, up with `column`"), "{several}");
+    let none = TextOptions { column: Some("acc".into()), ..options() };
+    let motions = error("time [s],velocity [m/s],displacement [m]\n0.0,0.1,0.0\n0.1,0.2,0.0\n0.2,0.1,0.0\n", &none);
+    assert!(motions.contains("there is no column `acc`; choose one of time, velocity, displacement"), "{motions}");
     let spectrum = error("time [s],Sa [g]\n0.0,0.1\n0.1,0.2\n0.2,0.1\n", &options());
     assert!(spectrum.contains("column `Sa` is no acceleration of the ground"), "{spectrum}");
     let absent = TextOptions { column: Some("h3".into()), ..options() };

@@ -219,7 +219,7 @@ pub struct Runs<'py> {
     /// Shape (runs, interfaces), with NaN for blanks `[m]`.
     slides: PyReadonlyArray2<'py, f64>,
     /// Whether runs of one record differ by more than their level.
-    has_several_columns: bool,
+    differ_beside_level: bool,
 }
 
 impl Runs<'_> {
@@ -302,12 +302,12 @@ pub fn fragility(
     seed: u64,
     layout: Option<&str>,
 ) -> PyResult<(String, Vec<String>)> {
-    let (has_several_columns, runs) = (runs.has_several_columns, runs.observations(py)?);
+    let (differ_beside_level, runs) = (runs.differ_beside_level, runs.observations(py)?);
     let state: LimitState =
         state.parse().map_err(|refused| error::of_study(py, &format!("there is no state `{state}`; {refused}")))?;
     let mut options = FragilityOptions::default();
     (options.replicates, options.confidence, options.seed) = (replicates, confidence, seed);
-    options.has_several_columns = has_several_columns;
+    options.differ_beside_level = differ_beside_level;
     options.check().map_err(|wrong| PyValueError::new_err(wrong.to_string()))?;
     let named = |name: &str| {
         Layout::parse(name).ok_or_else(|| {

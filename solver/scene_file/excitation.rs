@@ -168,7 +168,11 @@ impl Reader<'_> {
                 let Some(dt) = dt else { return Err(table.missing("dt", "give the sampling interval in s").into()) };
                 let unit = units.unwrap_or(AccelerationUnit::MetrePerSecondSquared);
                 let refused = |error: RecordError| match error {
-                    RecordError::Interval { .. } => table.wrong("dt", error.to_string(), "correct it"),
+                    RecordError::Interval { .. } => table.wrong(
+                        "dt",
+                        format!("{dt:e} s is out of range"),
+                        "give an interval above 1e-9 s, up to 1e6",
+                    ),
                     error => table.wrong("accel", error.to_string(), "correct the samples"),
                 };
                 (Record::from_samples(&accel, unit, dt, gravity).map_err(refused)?, "accel")

@@ -85,8 +85,10 @@ pub struct Fragility {
     pub bands: Option<Bands>,
     /// Pairs of neighbouring levels between which the share of runs with the state falls; empty for a cloud.
     pub falls: Vec<[f64; 2]>,
-    /// Records that reach the state at a level and do not at a higher one; empty where runs of one record are of several columns.
+    /// Records that reach the state at a level and do not at a higher one; empty if `differ_beside_level`.
     pub resurrections: Vec<String>,
+    /// As in the options: runs of one record differ in something beside their level, and it is not said which records come back.
+    pub differ_beside_level: bool,
 }
 
 fn as_text<S: serde::Serializer>(state: &LimitState, serializer: S) -> Result<S::Ok, S::Error> {
@@ -164,7 +166,8 @@ impl Fragility {
             goodness: curve.map(|curve| Goodness::of(&counts, &curve, layout)),
             bands,
             falls: if layout == Layout::Stripes { falls(&counts) } else { Vec::new() },
-            resurrections: if options.has_several_columns { Vec::new() } else { table.resurrections() },
+            resurrections: if options.differ_beside_level { Vec::new() } else { table.resurrections() },
+            differ_beside_level: options.differ_beside_level,
             counts,
         })
     }

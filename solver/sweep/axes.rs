@@ -16,11 +16,6 @@ impl Axis {
     pub(super) fn is_within(&self, key: &str) -> bool {
         self.key.strip_prefix(key).is_some_and(|below| below.is_empty() || below.starts_with(['.', '[']))
     }
-
-    /// Whether the axis is an item of the list of this name: `friction.static[1]` of `friction.static`.
-    pub(super) fn is_item_of(&self, list: &str) -> bool {
-        self.key.strip_prefix(list).is_some_and(|below| below.starts_with('[') && below.ends_with(']'))
-    }
 }
 
 /// Last parts of the keys whose values choose a record. Each run has one record, and fractiles are taken over all records.

@@ -142,8 +142,8 @@ impl Sweep {
         Ok(())
     }
 
-    /// Sampled axis whose smallest or largest sample no scene takes, and why. Every such sample would be a row with an error. A sample that the values
-    /// beside it make wrong is such a row and no more: it is tried with those of points all over the sweep.
+    /// Sampled axis whose smallest or largest sample is no value of a scene, and why. Every such sample would be a row with an error. A sample that is wrong
+    /// beside some values, and right or wrong for another reason beside others, is such a row and no more: it is tried at points all over the sweep.
     fn bad_sample(&self) -> Option<(usize, String)> {
         let number = |setting: &Setting| if let Setting::Number(number) = setting { *number } else { f64::NAN };
         (self.grid().len()..self.axes.len()).find_map(|axis| {
@@ -156,14 +156,16 @@ impl Sweep {
                     settings[axis] = &values[sample];
                     self.scene_of(&settings)
                 };
-                match beside(sample).err()? {
-                    SceneFileError::Scene { key: own, problem, .. } if self.axes[axis].is_within(&own) => {
-                        let is_taken = |point: usize| beside(point).is_ok();
-                        let message = || (axis, format!("sample {sample} is {}: {problem}", values[sample]));
-                        (!self.evenly_spread(POINTS_TRIED).any(is_taken)).then(message)
-                    }
+                let problem = |point: usize| match beside(point).err()? {
+                    SceneFileError::Scene { key, problem, .. } if self.axes[axis].is_within(&key) => Some(problem),
                     _ => None,
-                }
+                };
+                let first = problem(sample)?;
+                // A list has one key for all of its items: which is at fault shows in its value.
+                let is_own = !self.axes[axis].key.ends_with(']') || first.starts_with(&format!("{} ", values[sample]));
+                let is_same = |point: usize| problem(point).as_ref() == Some(&first);
+                let message = || (axis, format!("sample {sample} is {}: {first}", values[sample]));
+                (is_own && self.evenly_spread(POINTS_TRIED).all(is_same)).then(message)
             })
         })
     }

@@ -6,7 +6,6 @@
 //! Points of one thread run one after another. Sixteen points solved at once, with Taylor coefficients in vectors of eight, take longer: events,
 //! contact and set-up remain scalar, and the data of sixteen points displace each other from the cache.
 
-use super::axes::Axis;
 use super::outcome::{Ask, Outcome};
 use super::points::Sweep;
 use crate::run::{Simulator, SolveError};
@@ -151,27 +150,15 @@ impl Sweep {
     /// Why the scene of a point is refused: by the axis that has the value at fault, if one has; the base scene, whose line the error of the scene names,
     /// may have a sound one.
     pub fn refusal(&self, error: SceneFileError) -> PointError {
-        // Of several axes of one list it is not known which is at fault.
-        let axis_of = |key: &str| {
-            let within: Vec<&Axis> = self.axes.iter().filter(|axis| axis.key == key || axis.is_item_of(key)).collect();
-            if let [axis] = within[..] { Some(axis.key.clone()) } else { None }
-        };
+        let is_axis = |key: &str| self.axes.iter().any(|axis| axis.key == key);
         match error {
-            SceneFileError::Scene { ref key, ref problem, ref remedy, .. } => match axis_of(key) {
-                Some(axis) => PointError::Axis { axis, problem: problem.clone(), remedy: remedy.clone() },
-                None => error.into(),
-            },
-            SceneFileError::Record { ref key, ref record, ref problem, .. } => match axis_of(key) {
-                Some(axis) => {
-                    let base = self.template.file().display().to_string();
-                    PointError::Record {
-                        axis,
-                        record: record.clone(),
-                        problem: problem.replace(FILE_THAT_NAMES, &base),
-                    }
-                }
-                None => error.into(),
-            },
+            SceneFileError::Scene { key, problem, remedy, .. } if is_axis(&key) => {
+                PointError::Axis { axis: key, problem, remedy }
+            }
+            SceneFileError::Record { key, record, problem, .. } if is_axis(&key) => {
+                let base = self.template.file().display().to_string();
+                PointError::Record { axis: key, record, problem: problem.replace(FILE_THAT_NAMES, &base) }
+            }
             error => error.into(),
         }
     }

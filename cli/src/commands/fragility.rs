@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 
 /// Fits, prints, writes and draws.
 pub fn fragility(request: &arguments::Fragility) -> Result<(), Failure> {
-    let Runs { measure, runs, warnings, has_several_columns, peaks, has_slides } =
+    let Runs { measure, runs, warnings, differ_beside_level, peaks, has_slides } =
         runs::read(&request.table, request.measure.as_deref(), &request.conditions)?;
     let refused = |problem: String| Failure::Study(request.table.clone(), problem);
     let states = match &request.state[..] {
@@ -33,7 +33,7 @@ pub fn fragility(request: &arguments::Fragility) -> Result<(), Failure> {
     let mut options = FragilityOptions::default();
     (options.replicates, options.confidence, options.seed) =
         (request.replicates as usize, request.confidence, request.seed);
-    (options.layout, options.has_several_columns) = (request.layout, has_several_columns);
+    (options.layout, options.differ_beside_level) = (request.layout, differ_beside_level);
     options.check().map_err(Failure::Bands)?;
     // Curves of some of the rows do not take the place of those of all.
     let kind = if request.conditions.is_empty() { "fragility" } else { "where-fragility" };
@@ -199,7 +199,8 @@ struct Curve<'a> {
     median_if_all: Option<f64>,
     dispersion_if_all: Option<f64>,
     falls: usize,
-    resurrections: usize,
+    /// Blank where it is not known.
+    resurrections: Option<usize>,
     statement: String,
 }
 
@@ -251,7 +252,7 @@ impl Curve<'_> {
             median_if_all: all.map(|[median, _]| median),
             dispersion_if_all: all.map(|[_, dispersion]| dispersion),
             falls: fragility.falls.len(),
-            resurrections: fragility.resurrections.len(),
+            resurrections: (!fragility.differ_beside_level).then_some(fragility.resurrections.len()),
             statement: fragility.statements().join("; "),
         }
     }

@@ -132,7 +132,7 @@ pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<Option<String
     warn(&read.warnings);
     let label = read.measure.parse().map_or(read.measure.clone(), |intensity: Intensity| intensity.label());
     let (states, mut options) = asked(table)?.unwrap_or_else(|| (DEFAULT_STATES.to_vec(), FragilityOptions::default()));
-    options.has_several_columns = read.has_several_columns;
+    options.differ_beside_level = read.differ_beside_level;
     let conclusions = Conclusions::of(&read.runs, &read.measure, &states, &options);
     let pictures = [
         (plot::ida(&label, &read.runs, &stripes(&read.runs), paper), picture),

@@ -56,8 +56,11 @@ pub fn run(request: &Run) -> Result<(), Failure> {
     // Before anything is printed: a pipe that is closed loses no figure.
     let drawn = match response.samples.is_empty() {
         true if request.plots || request.report => {
-            warn(&["no figures and no report, as there are no rows: the run ends before the first of `output.times`"
-                .into()]);
+            let missing =
+                "no figures and no report, as there are no rows: the run ends before the first of `output.times`";
+            if !request.quiet {
+                warn(&[missing.into()]);
+            }
             Ok(Vec::new())
         }
         _ => drawn(request),

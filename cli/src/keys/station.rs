@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 #[derive(JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct Station {
-    /// folder, relative to the scene, and the files' names without what names the component (of PEER their number): `records/RSN1045`
+    /// folder, relative to the scene, and what the names of all its files begin with: `records/RSN1045` (of PEER's files, `RSN` and the number)
     pub record: String,
     /// the horizontal component: `H1` or `H2` by the order of the files' names, or the end of a file's name
     #[schemars(extend("x-default" = "H1"))]

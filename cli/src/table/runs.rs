@@ -17,8 +17,8 @@ pub struct Runs {
     pub runs: Vec<Observation>,
     /// Warnings: columns that are neither the record nor the measure, and whose values differ; runs that were cut; runs that are missing.
     pub warnings: Vec<String>,
-    /// Whether runs of one record differ by more than their level, as those of several columns do.
-    pub has_several_columns: bool,
+    /// Whether runs of one record differ in a key of the scene, as those of several columns do.
+    pub differ_beside_level: bool,
     /// Number of the columns of peaks, one for each block.
     pub peaks: usize,
     pub has_slides: bool,
@@ -50,10 +50,10 @@ pub fn read(table: &Path, measure: Option<&str>, conditions: &[(String, String)]
     }
     let name = &columns.names[columns.level];
     let measure = if is_measure(name) || measure.is_some() { name.clone() } else { last_part(name) };
-    let (mut warnings, has_several_columns) = (pooling.warnings(), pooling.has_several_columns());
+    let (mut warnings, differ_beside_level) = (pooling.warnings(), pooling.differ_beside_level());
     warnings.extend(missing(numbers));
     let (peaks, has_slides) = (columns.peaks.len(), !columns.slides.is_empty());
-    Ok(Runs { measure, runs, warnings, has_several_columns, peaks, has_slides })
+    Ok(Runs { measure, runs, warnings, differ_beside_level, peaks, has_slides })
 }
 
 /// Whether a cell has a value: the same text, or the same number.

@@ -204,7 +204,12 @@ fn acceleration_column(rows: &Rows, options: &TextOptions) -> Result<usize, Reco
     let unclear = |column: &str| {
         let may_be = |heading: &&Heading| heading.quantity().is_none_or(|quantity| quantity == Quantity::Acceleration);
         let names: Vec<String> = headings.iter().filter(may_be).map(Heading::component).collect();
-        let known = if names.is_empty() { format!("1 to {columns}") } else { listed(&names) };
+        let all = || headings.iter().map(Heading::component).collect::<Vec<_>>();
+        let known = match (headings, &names[..]) {
+            ([], _) => format!("1 to {columns}"),
+            (_, []) => listed(&all()),
+            (_, names) => listed(names),
+        };
         RecordError::NoColumn { column: column.into(), known }
     };
     if let Some(name) = options.column.as_ref().filter(|_| !rows.fills_rows) {

@@ -205,8 +205,8 @@ class Runs:
     uplift: list[bool] | None
     peaks: "Array"
     slides: "Array"
-    #: Whether runs of one record differ by more than their level, as those of several columns do.
-    has_several_columns: bool
+    #: Whether runs of one record differ in something beside their level, as those of several columns do.
+    differ_beside_level: bool
 
 
 #: Largest number of values of an axis whose rows may have been pooled by mistake: a column with more of them is none.
@@ -382,6 +382,9 @@ class Study:
             is_of_record = len(own) == count == len(set(records))
             if 1 < count <= min(MOST_VALUES, len(table) // 2) and not is_of_record:
                 warn([f"the rows of all {count} values of `{name}` make one curve; filter the table for those of one"])
+        # A column that is no key of a scene may be a result.
+        keys = [name for name in others if "." in name and _rocking.measure_label(name) is None]
+        differ = bool((table[keys].groupby(np.array(records)).nunique(dropna=False) > 1).any(axis=None)) if keys else False
         again = int(table.duplicated(settings).sum()) if of_records else 0
         if again:
             warn([f"{again} run(s) have all settings of a run above; if they are the same runs, give each once"])
@@ -430,7 +433,7 @@ class Study:
             uplift=uplift,
             peaks=peaks,
             slides=slides,
-            has_several_columns=bool((table[others].groupby(np.array(records)).nunique(dropna=False) > 1).any(axis=None)) if others else False,
+            differ_beside_level=differ,
         )
 
     @property
@@ -539,7 +542,8 @@ class Fragility:
     goodness : dict or None
         Pearson's chi-squared, its p-value, McFadden's R².
     falls, resurrections : list
-        Where the state is not monotonic in the level.
+        Where the state is not monotonic in the level: pairs of levels between which the share of runs falls, and records that reach the state and do not at
+        a higher level. No record is named where runs of a record differ in something beside their level; ``statements`` say so.
     statements : list of str
         Results and warnings, a sentence each.
     """

@@ -31,8 +31,9 @@ pub struct FragilityOptions {
     pub seed: u64,
     /// How levels are shared; `None` to derive it from the numbers of runs and levels.
     pub layout: Option<Layout>,
-    /// Whether runs of one record differ by more than their level, as those of several columns do; default false. No record is then said to come back.
-    pub has_several_columns: bool,
+    /// Whether runs of one record differ in something beside their level, as those of several columns do; default false. No record is then said to come
+    /// back.
+    pub differ_beside_level: bool,
 }
 
 /// An option of a fragility that is out of range.
@@ -76,6 +77,6 @@ impl FragilityOptions {
 
 impl Default for FragilityOptions {
     fn default() -> FragilityOptions {
-        FragilityOptions { replicates: 1000, confidence: 0.9, seed: 0, layout: None, has_several_columns: false }
+        FragilityOptions { replicates: 1000, confidence: 0.9, seed: 0, layout: None, differ_beside_level: false }
     }
 }

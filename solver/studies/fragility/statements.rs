@@ -12,7 +12,7 @@ const NO_ANSWERS: &str = "the other runs have no answer: see their errors, or le
 
 impl Fragility {
     /// Findings in words, one sentence each, with numbers in the unit of the measure: the curve or why there is none, extrapolation, bands,
-    /// few records, goodness of fit, shares that are not monotonic, undecided runs.
+    /// few records, goodness of fit, shares that are not monotonic, records that are not named, undecided runs.
     pub fn statements(&self) -> Vec<String> {
         let sentences = [
             Some(self.fit_in_words()),
@@ -21,6 +21,7 @@ impl Fragility {
             self.few_records(),
             self.goodness_in_words(),
             self.not_monotonic(),
+            self.unnamed(),
             self.left_out(),
         ];
         sentences.into_iter().flatten().collect()
@@ -94,6 +95,13 @@ impl Fragility {
         }
         let curve = if self.probability(1.0).is_some() { ", which no lognormal curve shows" } else { "" };
         (!reasons.is_empty()).then(|| format!("not monotonic: {}; see the raw shares{curve}", reasons.join("; ")))
+    }
+
+    /// Warning that it is not said which records come back; `None` where it is, or where no run has the state.
+    fn unnamed(&self) -> Option<String> {
+        let has_state = self.counts.iter().any(|count| count.reached > 0);
+        let unnamed = "records that reach the state and do not at a higher level are not named, as runs of a record differ in something beside their level";
+        (self.differ_beside_level && has_state).then(|| unnamed.into())
     }
 
     /// Warning that the median lies beyond the levels of the runs; `None` if it does not, or without a curve.

@@ -588,7 +588,7 @@ impl MotionFindings {
         };
         let _ = writeln!(text, "  ends at {end:.4} s; the ground is left {left}");
         // Zeros at the end of a record are no motion.
-        if self.motion.still_from().is_some_and(|still| still > t_end) {
+        if self.motion.moves_after(t_end) {
             let _ = writeln!(text, "  note: that is after the end of the run, solver.t_end");
         }
     }

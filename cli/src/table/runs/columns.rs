@@ -84,6 +84,12 @@ impl Columns {
         })
     }
 
+    /// The places of the other settings that are keys of a scene, as in the table of a sweep: `size.alpha`. A column of another name may be a result.
+    pub fn keys(&self) -> impl Iterator<Item = usize> {
+        let is_key = |place: &usize| self.names[*place].contains('.') && !is_measure(&self.names[*place]);
+        self.others.iter().copied().filter(is_key)
+    }
+
     /// Conditions with the places of their columns, and the value as it is given and as a tidied cell has it. The error names a column that is not there.
     pub fn conditions(&self, given: &[(String, String)]) -> Result<Vec<(usize, [String; 2])>, String> {
         let condition = |(name, value): &(String, String)| {

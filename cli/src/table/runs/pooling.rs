@@ -29,10 +29,10 @@ pub struct Pooling<'c> {
     columns: &'c Columns,
     /// For each column that is neither the record nor the measure: the records that have each of its values.
     values: Vec<BTreeMap<String, BTreeSet<String>>>,
-    /// For each record, the values of these columns in its first run.
+    /// For each record, the values of the keys of the scene in its first run.
     records: BTreeMap<String, Vec<String>>,
-    /// Whether runs of one record have other values of these columns.
-    has_several_columns: bool,
+    /// Whether runs of one record have other values of these keys.
+    differ_beside_level: bool,
     /// The number and the row of the first run with these settings.
     seen: HashMap<String, (String, usize)>,
     /// Number of runs.
@@ -51,7 +51,7 @@ impl Pooling<'_> {
             columns,
             values: vec![BTreeMap::new(); columns.others.len()],
             records: BTreeMap::new(),
-            has_several_columns: false,
+            differ_beside_level: false,
             seen: HashMap::new(),
             rows: 0,
             repeated: 0,
@@ -87,16 +87,16 @@ impl Pooling<'_> {
         {
             values.entry(row[*place].to_string()).or_default().insert(record.clone());
         }
-        let others = || columns.others.iter().map(|place| &row[*place]);
-        let first = self.records.entry(record).or_insert_with(|| others().map(String::from).collect());
-        self.has_several_columns |= !others().eq(first.iter());
+        let keys = || columns.keys().map(|place| &row[place]);
+        let first = self.records.entry(record).or_insert_with(|| keys().map(String::from).collect());
+        self.differ_beside_level |= !keys().eq(first.iter());
         self.cut += usize::from(columns.truncated.is_some_and(|truncated| &row[truncated] == "true"));
         Ok(())
     }
 
-    /// Whether runs of one record differ by more than their level: in other columns than those of the record and the measure.
-    pub fn has_several_columns(&self) -> bool {
-        self.has_several_columns
+    /// Whether runs of one record differ in a key of the scene beside those of the record and the measure.
+    pub fn differ_beside_level(&self) -> bool {
+        self.differ_beside_level
     }
 
     /// Columns that are neither the record nor the measure, and whose values differ; runs that were cut.
