@@ -596,6 +596,19 @@ fn the_user_may_repeat_what_a_file_says_but_not_contradict_it() {
     }
 }
 
+/// Some files begin with their sampling interval: it was a sample without a word.
+#[test]
+fn an_interval_above_the_samples_has_a_warning() {
+    let given = TextOptions { units: Some(AccelerationUnit::G), dt: Some(0.01), ..options() };
+    let warnings = |text: &str, skip_rows: usize| {
+        let file = RecordFile::read(text.as_bytes(), &TextOptions { skip_rows, ..given.clone() }).expect("readable");
+        (file.accel.len(), file.warnings.iter().any(|warning| warning.contains("line 1: the first number is `dt`")))
+    };
+    assert_eq!(warnings("0.01\n0.1\n-0.2\n0.0\n", 0), (4, true));
+    assert_eq!(warnings("0.01\n0.1\n-0.2\n0.0\n", 1), (3, false));
+    assert_eq!(warnings("0.02\n0.1\n-0.2\n0.0\n", 0), (4, false));
+}
+
 #[test]
 fn tables_are_refused_where_they_leave_a_choice_or_are_uneven() {
     let g = TextOptions { units: Some(AccelerationUnit::G), ..options() };

@@ -59,11 +59,21 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
         let count = rows.in_first_row;
         warnings.push(format!("the {count} numbers of each row are read as samples one after another; if they are components, choose one with `column`"));
     }
+    warnings.extend(interval_among_samples(&rows, chosen, begins, options));
     let values: Vec<f64> = (0..rows.lines.len()).map(|row| rows.at(row, chosen)).collect();
     let samples = Samples { values, cut: false, warnings };
     let file = RecordFile::of(Format::Table, unit, unit.in_si(options.gravity), dt, samples);
     let component = headings.get(chosen).map(|heading| tidy(&heading.component())).unwrap_or_default();
     Ok(RecordFile { title: title(lines), component, first_sample: begins, ..file })
+}
+
+/// Warning that the first number of a table without times and headings is the sampling interval that is given: some files begin with it.
+fn interval_among_samples(rows: &Rows, chosen: usize, begins: Option<f64>, options: &TextOptions) -> Option<String> {
+    let is_interval = options.dt == Some(rows.at(0, chosen)) && begins.is_none() && rows.headings.1.is_empty();
+    let line = rows.lines[0];
+    is_interval.then(|| {
+        format!("line {line}: the first number is `dt`; if it is no sample, leave its line out with `skip_rows`")
+    })
 }
 
 /// Refuses samples that fill rows of a few columns, if each column has the name of a component.
