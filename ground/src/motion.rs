@@ -259,7 +259,7 @@ impl Motion {
         }
     }
 
-    /// Whether the acceleration is not yet zero for good at `t` `[s]`, but for the rounding of times.
+    /// Whether the acceleration is other than zero at some time after `t` `[s]`. Times that differ by their rounding are equal.
     pub fn moves_after(&self, t: f64) -> bool {
         self.still_from().is_none_or(|still| still > t * (1.0 + ROUNDING_OF_TIME))
     }

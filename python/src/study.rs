@@ -218,7 +218,7 @@ pub struct Runs<'py> {
     peaks: PyReadonlyArray2<'py, f64>,
     /// Shape (runs, interfaces), with NaN for blanks `[m]`.
     slides: PyReadonlyArray2<'py, f64>,
-    /// Whether runs of one record differ by more than their level.
+    /// Whether runs of one record differ in something beside their level.
     differ_beside_level: bool,
 }
 

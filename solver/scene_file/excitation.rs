@@ -435,7 +435,7 @@ fn pulse(table: &mut Table, kind: &str, scales: Scales) -> Result<Motion, Wrong>
     })
 }
 
-/// Filtered noise, of the seed 0.
+/// Filtered noise with the seed 0, which the caller replaces.
 pub(crate) fn noise(table: &mut Table) -> Result<Synthetic, Wrong> {
     let mut synthetic = Synthetic::default();
     for (key, number) in [

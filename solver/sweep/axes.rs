@@ -12,7 +12,7 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// Whether the axis is a key, or is in the table or list of that name.
+    /// Whether the axis is that of a key, or of an entry in the table or list that the key names.
     pub(super) fn is_within(&self, key: &str) -> bool {
         self.key.strip_prefix(key).is_some_and(|below| below.is_empty() || below.starts_with(['.', '[']))
     }

@@ -142,8 +142,10 @@ impl Sweep {
         Ok(())
     }
 
-    /// Sampled axis whose smallest or largest sample is no value of a scene, and why. Every such sample would be a row with an error. A sample that is wrong
-    /// beside some values, and right or wrong for another reason beside others, is such a row and no more: it is tried at points all over the sweep.
+    /// Sampled axis whose smallest or largest sample no scene takes, and why. Every such sample would be a row with an error.
+    ///
+    /// A sample may also be refused for what the other axes have in its row, such as kinetic friction above the static one. It is put in place of the samples
+    /// of points all over the sweep: only where all of them are refused for the same reason is the sample at fault.
     fn bad_sample(&self) -> Option<(usize, String)> {
         let number = |setting: &Setting| if let Setting::Number(number) = setting { *number } else { f64::NAN };
         (self.grid().len()..self.axes.len()).find_map(|axis| {

@@ -147,8 +147,8 @@ impl<'s> Worker<'s> {
 }
 
 impl Sweep {
-    /// Why the scene of a point is refused: by the axis that has the value at fault, if one has; the base scene, whose line the error of the scene names,
-    /// may have a sound one.
+    /// The error of a point whose scene is refused. It names the axis with the value at fault, if there is one: the line of the base scene that `error` names
+    /// may have a sound value.
     pub fn refusal(&self, error: SceneFileError) -> PointError {
         let is_axis = |key: &str| self.axes.iter().any(|axis| axis.key == key);
         match error {

@@ -54,17 +54,7 @@ pub fn run(request: &Run) -> Result<(), Failure> {
         warn(&finished.warnings);
     }
     // Before anything is printed: a pipe that is closed loses no figure.
-    let drawn = match response.samples.is_empty() {
-        true if request.plots || request.report => {
-            let missing =
-                "no figures and no report, as there are no rows: the run ends before the first of `output.times`";
-            if !request.quiet {
-                warn(&[missing.into()]);
-            }
-            Ok(Vec::new())
-        }
-        _ => drawn(request),
-    };
+    let drawn = drawn(request, &response);
     match (request.quiet, request.json) {
         (true, _) => {}
         (false, true) => json_text(&folder.summary()?)?,
@@ -102,10 +92,17 @@ fn names_of_results(folder: &Path) -> Vec<String> {
 }
 
 /// Draws the figures and writes the report that are asked for; returns their names. They are made of the files of the run, so that they are the same
-/// as those of `rocking plot` and `rocking report`.
-fn drawn(request: &Run) -> Result<Vec<String>, Failure> {
+/// as those of `rocking plot` and `rocking report`. Of a run without rows there is nothing to draw, which a warning says.
+fn drawn(request: &Run, response: &Response) -> Result<Vec<String>, Failure> {
     let out = &request.out;
     if !request.plots && !request.report {
+        return Ok(Vec::new());
+    }
+    if response.samples.is_empty() {
+        if !request.quiet {
+            let why = "there are no rows: the run ends before the first of `output.times`";
+            warn(&[format!("no figures and no report, as {why}")]);
+        }
         return Ok(Vec::new());
     }
     let results = Results::read(out)?;

@@ -213,13 +213,12 @@ fn acceleration_column(rows: &Rows, options: &TextOptions) -> Result<usize, Reco
     let (headings, columns) = (rows.headings.1.as_slice(), rows.columns);
     let unclear = |column: &str| {
         let may_be = |heading: &&Heading| heading.quantity().is_none_or(|quantity| quantity == Quantity::Acceleration);
-        let names: Vec<String> = headings.iter().filter(may_be).map(Heading::component).collect();
-        let all = || headings.iter().map(Heading::component).collect::<Vec<_>>();
-        let known = match (headings, &names[..]) {
-            ([], _) => format!("1 to {columns}"),
-            (_, []) => listed(&all()),
-            (_, names) => listed(names),
-        };
+        let mut named: Vec<&Heading> = headings.iter().filter(may_be).collect();
+        if named.is_empty() {
+            named = headings.iter().collect();
+        }
+        let names: Vec<String> = named.into_iter().map(Heading::component).collect();
+        let known = if names.is_empty() { format!("1 to {columns}") } else { listed(&names) };
         RecordError::NoColumn { column: column.into(), known }
     };
     if let Some(name) = options.column.as_ref().filter(|_| !rows.fills_rows) {
