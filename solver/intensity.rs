@@ -46,7 +46,8 @@ impl Intensity {
     /// let pgv = Intensity::named("pgv_uplift", None).expect("a name");
     /// let column = rocking::Column::equal_blocks(1, 0.3, 0.4, 1.0, 9.81)?;
     /// // R = 0.5 m, p² = 3g/(4R), g tan α = 0.75 g.
-    /// assert!((pgv.unit_size(&column) - 0.75 * 9.81 / (1.5 * 9.81_f64).sqrt()).abs() < 1e-12);
+    /// let unit = pgv.unit_size(&column).expect("the column stands");
+    /// assert!((unit - 0.75 * 9.81 / (1.5 * 9.81_f64).sqrt()).abs() < 1e-12);
     /// # Ok::<(), rocking::ColumnError>(())
     /// ```
     pub fn named(name: &str, sa: Option<[f64; 2]>) -> Option<Intensity> {
@@ -83,14 +84,15 @@ impl Intensity {
         }
     }
 
-    /// Value of one unit for a column, in the SI unit of the measure.
-    pub fn unit_size(&self, column: &Column) -> f64 {
+    /// Value of one unit for a column, in the SI unit of the measure; `None` for uplift where the column does not stand by itself.
+    pub fn unit_size(&self, column: &Column) -> Option<f64> {
         let whole = column.stack(0);
         match (self.unit, self.measure) {
-            (IntensityUnit::Si, _) => 1.0,
-            (IntensityUnit::Gravity, _) => column.gravity(),
-            (IntensityUnit::Uplift, Measure::Pgv) => whole.uplift_acceleration() / whole.frequency_parameter(),
-            (IntensityUnit::Uplift, _) => whole.uplift_acceleration(),
+            (IntensityUnit::Si, _) => Some(1.0),
+            (IntensityUnit::Gravity, _) => Some(column.gravity()),
+            (IntensityUnit::Uplift, _) if whole.uplift_acceleration() <= 0.0 => None,
+            (IntensityUnit::Uplift, Measure::Pgv) => Some(whole.uplift_acceleration() / whole.frequency_parameter()),
+            (IntensityUnit::Uplift, _) => Some(whole.uplift_acceleration()),
         }
     }
 
@@ -206,7 +208,7 @@ mod tests {
     #[test]
     fn uplift_is_one_where_the_base_opens() {
         let column = Column::equal_blocks(2, 0.3, 0.4, 1.0, 9.81).expect("valid");
-        let unit = |name| Intensity::named(name, None).expect("a name").unit_size(&column);
+        let unit = |name| Intensity::named(name, None).and_then(|own| own.unit_size(&column)).expect("a unit");
         assert!((unit("pga_uplift") - 0.75 * 9.81).abs() < 1e-12);
         assert!((unit("pga_uplift") / unit("pgv_uplift") - column.stack(0).frequency_parameter()).abs() < 1e-12);
         assert_eq!([unit("pga_g"), unit("cav")], [9.81, 1.0]);

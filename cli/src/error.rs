@@ -108,6 +108,11 @@ pub enum Failure {
     /// `--scale-to` names a measure that needs a column, and no scene is given.
     #[error("--scale-to {0}: that measure is of a column; name its scene with --scene")]
     NoColumn(String),
+    /// `--scale-to` names a measure of a column that does not stand by itself.
+    #[error(
+        "--scale-to {0}: the column of --scene does not stand by itself, and nothing has that size; name another measure"
+    )]
+    NoUplift(String),
     /// `--damping` is given where no spectral acceleration takes it.
     #[error("--damping: no spectral acceleration takes it; give --sa, or --scale-to with sa(PERIOD) or sa_g(PERIOD)")]
     Damping,

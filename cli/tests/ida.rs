@@ -479,6 +479,7 @@ fn figures_have_the_bands_of_the_table_of_curves() {
         ("seed", "x", "row 1: `x` is no seed"),
         ("state", "fell", "row 1: `fell` is no limit state"),
         ("layout", "heaps", "row 1: `heaps` is no layout"),
+        ("fit", "probit", "row 1: `probit` is no fit"),
     ] {
         let row = curves.lines().nth(1).expect("a row");
         let mut cells: Vec<&str> = row.splitn(header.len(), ',').collect();
@@ -486,6 +487,9 @@ fn figures_have_the_bands_of_the_table_of_curves() {
         folder.write("ida-fragility.csv", curves.replacen(row, &cells.join(","), 1));
         folder.refused("plot ida.csv", &["ida-fragility.csv: ", told, "make it anew with `rocking fragility`"]);
     }
+    let row = curves.lines().nth(1).expect("a row");
+    folder.write("ida-fragility.csv", curves.replacen(row, &format!("{row}\n{row}"), 1));
+    folder.refused("plot ida.csv", &["ida-fragility.csv: row 2: limit state `uplift` is there twice"]);
     folder.remove("ida-fragility.csv");
     folder.succeeds("plot ida.csv");
 }

@@ -214,7 +214,7 @@ fn scenes_take_the_same_files_and_tell_their_warnings_and_origin() {
     for (keys, parts) in [
         ("file = \"short.AT2\"", ["line 6", "declares 50"]),
         ("file = \"short.AT2\"\nlenient = \"yes\"", ["line 7", "give true or false"]),
-        ("file = \"short.AT2\"\nchannel = 0", ["line 7", "give a whole number from 1 to 9e15"]),
+        ("file = \"short.AT2\"\nchannel = 0", ["line 7", "give a whole number from 1 on"]),
         ("file = \"short.AT2\"\nskip_rows = 1.5", ["line 7", "out of range"]),
         ("accel = [0.0, 1.0]\ndt = 0.1\nlenient = true", ["line 8", "give `file` instead"]),
         ("file = \"short.AT2\"\nlenient = true\ndt = 0.02", ["line 6", "`dt` is given as 0.02 s"]),
@@ -302,6 +302,14 @@ fn records_are_scaled_to_any_measure() {
     for (found, expected) in pga.into_iter().zip([0.2 * 3.71, 0.2, 0.2 / 0.25, 3.71]) {
         assert!((found / expected - 1.0).abs() < 1e-12, "{told}");
     }
+    // A column that does not stand by itself has no size in uplift.
+    let leaning = "[column]\nblocks = 3\nhalf_width = 0.4\nhalf_height = 3.0\n[initial]\nslide = [0.0, 0.7, 0.7]\n";
+    folder.write("leaning.toml", leaning);
+    for size in ["pga_uplift=1", "pgv_uplift=1"] {
+        let command = format!("record records/A_H1.csv --scale-to {size} --scene leaning.toml");
+        folder.refused(&command[..], &["--scale-to pg", "does not stand by itself", "name another measure"]);
+    }
+    folder.refused("record records/A_H1.csv --scale-to pga_uplift=1", &["name its scene with --scene"]);
     for (keys, word) in [
         ("pgv = 0.5\npga_g = 0.2", "remove one of the two"),
         ("pgv = 0.5\nscale = 2", "remove one of the two"),

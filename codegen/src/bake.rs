@@ -59,15 +59,17 @@ impl BakedColumn {
         if !(1..=LARGEST_BAKED).contains(&blocks) {
             return Err(GenerateError::BakedSize { blocks });
         }
-        let is_size = |value: f64| value > 0.0 && value.is_finite();
+        // Equations have products of several sizes; where one overflows, or vanishes, terms would be missing from the code without a word.
+        let is_size = |value: f64| (1e-30..=1e30).contains(&value);
+        let is_inertia = |value: f64| (1e-90..=1e90).contains(&value);
         for (index, block) in self.blocks.iter().enumerate() {
-            for (name, value) in [
-                ("half_width", block.half_width),
-                ("half_height", block.half_height),
-                ("mass", block.mass),
-                ("inertia", block.inertia),
+            for (name, value, is_within) in [
+                ("half_width", block.half_width, is_size(block.half_width)),
+                ("half_height", block.half_height, is_size(block.half_height)),
+                ("mass", block.mass, is_size(block.mass)),
+                ("inertia", block.inertia, is_inertia(block.inertia)),
             ] {
-                if !is_size(value) {
+                if !is_within {
                     return Err(GenerateError::BakedValue { name: format!("{name} of block {}", index + 1), value });
                 }
             }
@@ -124,7 +126,8 @@ pub struct BakedCatalogue {
 /// Derives the modes of a column of given sizes.
 ///
 /// # Errors
-/// [`GenerateError`] if the number of blocks is out of range, or if gravity or a size is not positive and finite.
+/// [`GenerateError`] if the number of blocks is out of range, or if gravity or a size is not above zero, or out of the range that products of sizes
+/// can have.
 pub fn baked_catalogue(column: &BakedColumn) -> Result<BakedCatalogue, GenerateError> {
     column.check()?;
     let blocks = column.blocks.len();
@@ -175,4 +178,33 @@ fn bake(column: &BakedColumn, pattern: &Pattern, ground: GroundMotion, form: For
         program.constants.iter().filter_map(|constant| Some((constant.name.clone(), value_of(constant.symbol)?)));
     let literals = named.collect();
     (program, literals)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sizes whose products are no doubles are refused: they would be no literals, or terms would be missing.
+    #[test]
+    fn sizes_out_of_range_are_refused() {
+        let column = |half_width: f64, half_height: f64, mass: f64, gravity: f64| {
+            let inertia = mass * half_height * half_height;
+            let block = BakedBlock { half_width, half_height, mass, inertia };
+            BakedColumn { gravity, blocks: vec![block; 2] }
+        };
+        for (column, told) in [
+            (column(f64::NAN, 1.0, 1.0, 9.81), "half_width of block 1 is NaN: "),
+            (column(0.3, 1e200, 1.0, 9.81), "half_height of block 1 is 1e200: "),
+            (column(0.3, 1.0, 1e-200, 9.81), "mass of block 1 is 1e-200: "),
+            (column(0.3, 1.0, 1.0, 0.0), "gravity is 0.0: "),
+        ] {
+            let refused = baked_catalogue(&column).expect_err("out of range").to_string();
+            assert!(refused.starts_with(told) && refused.contains("from 1e-30 to 1e30"), "{refused}");
+        }
+        for (sizes, mass) in [(1e29, 1e29), (1e-29, 1e-29)] {
+            let catalogue = baked_catalogue(&column(sizes, sizes, mass, sizes)).expect("in range");
+            let constants = catalogue.modes.iter().flat_map(|mode| &mode.accelerations).flat_map(|(_, values)| values);
+            assert!(constants.clone().count() > 0 && constants.clone().all(|(_, value)| value.is_normal()));
+        }
+    }
 }

@@ -22,7 +22,7 @@ pub enum GenerateError {
         /// The number requested.
         blocks: usize,
     },
-    /// A size of a baked column is not a positive number.
+    /// A size of a baked column is not a number above zero, or so small or large that products of sizes are out of the range of doubles.
     BakedValue {
         /// The size, e.g. `mass of block 2`.
         name: String,
@@ -47,7 +47,12 @@ impl fmt::Display for GenerateError {
             GenerateError::BakedSize { blocks } => {
                 write!(f, "a column of {blocks} block(s) is not baked: from 1 to {LARGEST_BAKED} are; use `generate`")
             }
-            GenerateError::BakedValue { name, value } => write!(f, "{name} is {value}: give a positive finite number"),
+            GenerateError::BakedValue { name, value } => {
+                write!(
+                    f,
+                    "{name} is {value:?}: give a number above zero, from 1e-30 to 1e30 (of an inertia, from 1e-90 to 1e90)"
+                )
+            }
             GenerateError::Programs { found, expected } => write!(
                 f,
                 "{found} distinct step programs where {expected} were expected: the optimiser missed an equality"

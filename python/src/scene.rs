@@ -148,11 +148,14 @@ impl Scene {
         serde_json::to_string(&*self.scene).map_err(error::unwritable)
     }
 
-    /// Size of one unit of a measure for this column, and gravity `[m/s²]`.
+    /// Size of one unit of a measure for this column, and gravity `[m/s²]`; an error where the column does not stand by itself and has none.
     #[pyo3(signature = (measure, sa_period, sa_damping))]
     fn unit_of(&self, measure: &str, sa_period: Option<f64>, sa_damping: Option<f64>) -> PyResult<(f64, f64)> {
         let column = &self.scene.column;
-        Ok((intensity(measure, sa_period, sa_damping)?.unit_size(column), column.gravity()))
+        let unit = intensity(measure, sa_period, sa_damping)?.unit_size(column).ok_or_else(|| {
+            PyValueError::new_err(format!("the column does not stand by itself: nothing has a size in {measure}"))
+        })?;
+        Ok((unit, column.gravity()))
     }
 
     /// Sizes of the blocks, base first, a list each.

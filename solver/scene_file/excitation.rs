@@ -80,13 +80,14 @@ pub(super) fn set_amplitude(excitation: &mut Excitation, key: &str, value: f64, 
 pub(super) fn check_uplift(table: &Table, column: &Column) -> Result<(), Wrong> {
     let has_unit = column.uplift_acceleration(0) > 0.0;
     match table.keys().into_iter().find(|key| !has_unit && key.ends_with("_uplift")) {
-        Some(key) => Err(table.wrong(
-            &key,
-            "the column does not stand by itself: no acceleration of the ground opens its base".into(),
-            "give the size in m/s² or g, or other slides",
-        )),
+        Some(key) => Err(no_uplift(table, &key)),
         None => Ok(()),
     }
+}
+
+fn no_uplift(table: &Table, key: &str) -> Wrong {
+    let problem = "the column does not stand by itself: no acceleration of the ground opens its base";
+    table.wrong(key, problem.into(), "give the size in m/s² or g, or other slides")
 }
 
 /// What paths of records are relative to, in errors.
@@ -302,7 +303,8 @@ pub(super) fn target(table: &mut Table, column: &Column) -> Result<Option<Target
         }
         let intensity = Intensity::named(key, sa)
             .ok_or_else(|| table.missing("sa_period", &format!("give the period of `{key}` in s")))?;
-        found = Some(Target { key, measure: intensity.measure, size: value * intensity.unit_size(column) });
+        let unit = intensity.unit_size(column).ok_or_else(|| no_uplift(table, key))?;
+        found = Some(Target { key, measure: intensity.measure, size: value * unit });
     }
     Ok(found)
 }

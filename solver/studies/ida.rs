@@ -55,6 +55,9 @@ pub enum IdaError {
         /// What is wrong, and the remedy.
         problem: &'static str,
     },
+    /// The measure is one of uplift, and the column does not stand by itself.
+    #[error("the column does not stand by itself: no ground motion has a size in {0}")]
+    NoUplift(Intensity),
     /// A record cannot be scaled to a size in the measure.
     #[error("record {name}: {error}")]
     Record {
@@ -139,7 +142,7 @@ impl Ida {
                 return Err(IdaError::Level { level, problem: "it is there twice; remove one of the two" });
             }
         }
-        let unit = intensity.unit_size(&scene.column);
+        let unit = intensity.unit_size(&scene.column).ok_or(IdaError::NoUplift(intensity))?;
         let factor = |record: &StudyRecord| {
             let factor = record.horizontal.factor_to(intensity.measure, unit, scene.column.gravity());
             factor.map_err(|error| IdaError::Record { name: record.name.clone(), error })
@@ -267,6 +270,23 @@ mod tests {
 
     fn scene() -> Scene {
         Scene::new(Column::equal_blocks(1, 0.4, 1.6, 1.0, 9.81).expect("valid"))
+    }
+
+    #[test]
+    fn a_column_that_does_not_stand_has_no_sizes_in_uplift() {
+        let leaning = Column::equal_blocks(3, 0.4, 3.0, 1.0, 9.81).expect("valid");
+        let leaning = leaning.displaced(vec![0.0, 0.7, 0.7]).expect("each block stands on the one below");
+        let record = Record::new(vec![0.0, 1.0, 0.0], 0.1, 0.0).expect("valid");
+        let study = |name: &str| {
+            let measure = Intensity::named(name, None).expect("a measure");
+            let record = StudyRecord { name: "a".into(), horizontal: record.clone(), vertical: None };
+            Ida::new(Scene::new(leaning.clone()), vec![record], measure, vec![1.0]).map(|_| measure)
+        };
+        for name in ["pga_uplift", "pgv_uplift"] {
+            let measure = Intensity::named(name, None).expect("a measure");
+            assert_eq!(study(name), Err(IdaError::NoUplift(measure)));
+        }
+        assert!(study("pga_g").is_ok());
     }
 
     #[test]

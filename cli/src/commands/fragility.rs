@@ -167,6 +167,9 @@ impl Conclusions {
     }
 }
 
+/// What a row of the table of curves says of its fit.
+pub const FITS: [&str; 7] = ["lognormal", "no-runs", "one-record", "never", "always", "step", "falling"];
+
 /// A row of the table of curves.
 #[derive(Serialize)]
 struct Curve<'a> {

@@ -161,7 +161,14 @@ fn asked(table: &Path) -> Result<Option<(Vec<LimitState>, FragilityOptions)>, Fa
         let row = row.map_err(at(Failure::Curves, &curves))?;
         let wrong = |name: &str, cell: &str| refused(format!("row {}: `{}` is no {name}", number + 1, printable(cell)));
         let cell = |place: usize| row.get(place).unwrap_or_default();
-        states.push(cell(state).parse().map_err(|_| wrong("limit state", cell(state)))?);
+        let own = cell(state).parse().map_err(|_| wrong("limit state", cell(state)))?;
+        if states.contains(&own) {
+            return Err(refused(format!("row {}: limit state `{own}` is there twice", number + 1)));
+        }
+        states.push(own);
+        if !fragility::FITS.contains(&cell(fit)) {
+            return Err(wrong("fit", cell(fit)));
+        }
         if let Some(name) = layout.map(cell) {
             options.layout = Some(Layout::parse(name).ok_or_else(|| wrong("layout", name))?);
         }

@@ -105,10 +105,9 @@ fn scaled(
         *own = damping;
     }
     let unit = match column {
-        Some(column) => Some(intensity.unit_size(column)),
-        None => intensity.unit_size_without_column(gravity),
+        Some(column) => intensity.unit_size(column).ok_or_else(|| Failure::NoUplift(intensity.to_string()))?,
+        None => intensity.unit_size_without_column(gravity).ok_or_else(|| Failure::NoColumn(intensity.to_string()))?,
     };
-    let unit = unit.ok_or_else(|| Failure::NoColumn(intensity.to_string()))?;
     record.scaled_to(intensity.measure, size * unit, gravity).map_err(refused)
 }
 
@@ -289,9 +288,7 @@ impl Description {
         self.spectral = periods.iter().map(spectral).collect();
         let size = |name: &str, column: &Column| {
             let intensity = Intensity::named(name, None)?;
-            // A column that does not stand by itself has no unit.
-            let unit = Some(intensity.unit_size(column)).filter(|unit| *unit > 0.0)?;
-            Some(record.measure(intensity.measure, column.gravity()) / unit)
+            Some(record.measure(intensity.measure, column.gravity()) / intensity.unit_size(column)?)
         };
         self.of_column = column.and_then(|column| {
             Some(OfColumn { pga_uplift: size("pga_uplift", column)?, pgv_uplift: size("pgv_uplift", column)? })
