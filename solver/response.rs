@@ -591,6 +591,9 @@ impl ModeName {
     pub const REST: ModeName = ModeName(None);
 
     /// The name of a pattern's mode; mirror images share it.
+    ///
+    /// # Panics
+    /// As [`Pattern::mode`], for patterns of more interfaces than any column has.
     pub fn of(pattern: &Pattern) -> ModeName {
         ModeName(pattern.mode().map(|(label, _)| label))
     }

@@ -520,7 +520,7 @@ impl Scene {
                     Some("dt") => "give an interval above 1e-9 s, up to 1e6",
                     Some("velocity") => "it is the velocity or velocity · omega; let both be up to 1e6",
                     Some("cycles") => "give a whole number of cycles from 1 to 1e6",
-                    _ => "give a size up to 1e6, above zero for omega and duration",
+                    _ => "give a size up to 1e6, for omega above 1e-100, for a duration above zero",
                 };
                 faults.note(&format!("excitation.{component}.{name}"), format!("{value} is out of range"), remedy);
             }

@@ -65,6 +65,29 @@ fn runs_that_slide_are_observed_every_thousand_steps() {
     assert!(matches!(stopped, Err(SolveError::Cancelled { time }) if time < 0.03), "{stopped:?}");
 }
 
+/// A rest is one stretch, whatever the ground does in it: long ones were one call, at their end, and could not be stopped.
+#[test]
+fn columns_at_rest_are_observed() {
+    let harmonic = |amplitude: f64, omega: f64| Motion::Harmonic { amplitude, omega, start: 0.0, phase: 0.0 };
+    let mut scene = Scene::new(Column::equal_blocks(2, 0.4, 1.6, 1.0, GRAVITY).expect("valid"));
+    scene.excitation.horizontal = Some(Motion::Sum { terms: vec![harmonic(1.2, 200.0), harmonic(1.1, 260.0)] });
+    scene.options.t_end = 500.0;
+    for friction in [None, Some(Friction::uniform(0.8))] {
+        scene.friction = friction;
+        let (mut times, whole) = (Vec::new(), simulate(&scene).expect("a run"));
+        let observed = simulate_observed(&scene, |t| {
+            times.push(t);
+            Continue(())
+        });
+        assert_eq!(observed.expect("a run"), whole);
+        assert_eq!(Fate::of(&whole), Fate::NoUplift);
+        // 130,000 radians, a call after each 10,000.
+        assert!(times.len() >= 13 && times.is_sorted(), "{times:?}");
+        let stopped = simulate_observed(&scene, |_| Break(()));
+        assert!(matches!(stopped, Err(SolveError::Cancelled { time }) if (38.0..39.0).contains(&time)), "{stopped:?}");
+    }
+}
+
 /// A column wider at its top rocks without sliding: what was recorded for its limits of friction alone stayed in the response, which did not read
 /// back equal.
 #[test]

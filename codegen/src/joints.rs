@@ -196,7 +196,8 @@ impl fmt::Display for Joints {
     }
 }
 
-/// Number of combinations of states by free angles and translations, `[angles][translations]`; `10^N` combinations in all for `N = blocks`.
+/// Number of combinations of states by free angles and translations, `[angles][translations]`; `10^N` combinations in all for `N = blocks`. Numbers
+/// above those of `u64`, which only columns of more than 19 blocks have, are the largest one.
 pub fn combinations(blocks: usize) -> Vec<Vec<u64>> {
     let mut counts = vec![vec![0; 2 * blocks + 1]; blocks + 1];
     counts[0][0] = 1;
@@ -205,7 +206,9 @@ pub fn combinations(blocks: usize) -> Vec<Vec<u64>> {
         for joint in Joint::all() {
             for (angles, row) in before.iter().enumerate() {
                 for (translations, count) in row.iter().enumerate().filter(|(_, count)| **count > 0) {
-                    counts[angles + usize::from(joint.has_angle())][translations + joint.translations()] += count;
+                    let own: &mut u64 =
+                        &mut counts[angles + usize::from(joint.has_angle())][translations + joint.translations()];
+                    *own = own.saturating_add(*count);
                 }
             }
         }

@@ -229,6 +229,9 @@ impl fmt::Display for Pattern {
 }
 
 /// The `(3^N - 1)/2` independent modes in the order of their labels, lazily: `N = 20` costs nothing until read.
+///
+/// # Panics
+/// When read, for more than 120 blocks.
 pub fn modes(blocks: usize) -> impl Iterator<Item = (ModeLabel, Pattern)> {
     (1..=blocks).flat_map(move |lowest| {
         let count = 3u64.saturating_pow((blocks - lowest) as u32);

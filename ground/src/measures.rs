@@ -72,7 +72,7 @@ impl Record {
         std::iter::once(0.0).chain(self.intervals().map(|interval| interval.displacement(interval.h))).collect()
     }
 
-    /// Intensity measures, all that there are finite; `gravity [m/s²]`, above zero, enters the Arias intensity.
+    /// Intensity measures, all that there are finite; `gravity [m/s²]`, 1e-200 or above, enters the Arias intensity.
     pub fn measures(&self, gravity: f64) -> Measures {
         Measures { mean_period: self.mean_period(), ..self.sizes(gravity) }
     }

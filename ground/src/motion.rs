@@ -9,7 +9,7 @@
 
 use crate::error::RecordError;
 use crate::piece::Piece;
-use crate::record::{Record, finite_factor};
+use crate::record::{Record, finite_factor, finite_product};
 use crate::spans::{Span, Spans, overlay};
 use serde::ser::SerializeStruct;
 use serde::{Deserialize, Serialize, Serializer};
@@ -215,10 +215,12 @@ impl Motion {
                 let scaled: Result<_, _> = terms.drain(..).map(|term| term.scaled(factor)).collect();
                 *terms = scaled?;
             }
-            Motion::MavroeidisPapageorgiou { velocity, .. } | Motion::Gabor { velocity, .. } => *velocity *= factor,
+            Motion::MavroeidisPapageorgiou { velocity, .. } | Motion::Gabor { velocity, .. } => {
+                *velocity = finite_product(*velocity, factor)?;
+            }
             motion => {
                 if let Some(amplitude) = motion.amplitude_mut() {
-                    *amplitude *= factor;
+                    *amplitude = finite_product(*amplitude, factor)?;
                 }
             }
         }
@@ -294,12 +296,12 @@ impl Motion {
         const ANY: f64 = f64::NEG_INFINITY;
         let with = |first: &[Parameter], others: &[Parameter]| first.iter().chain(others).copied().collect();
         let wave = |amplitude: f64, omega: f64, start: f64, others: &[Parameter]| {
-            with(&[("amplitude", amplitude, ANY), ("omega", omega, 0.0), ("start", start, ANY)], others)
+            with(&[("amplitude", amplitude, ANY), ("omega", omega, SLOWEST), ("start", start, ANY)], others)
         };
         // The acceleration of a pulse of velocity has its amplitude at the crest.
         let envelope = |velocity: f64, omega: f64, start: f64, others: &[Parameter]| {
             let crest = ("velocity", velocity * omega, ANY);
-            with(&[("velocity", velocity, ANY), ("omega", omega, 0.0), ("start", start, ANY), crest], others)
+            with(&[("velocity", velocity, ANY), ("omega", omega, SLOWEST), ("start", start, ANY), crest], others)
         };
         match *self {
             Motion::SinePulse { amplitude, omega, start }
@@ -337,6 +339,9 @@ impl Motion {
 
 /// Name in a scene, value, and lower bound. The bound itself is not allowed.
 type Parameter = (&'static str, f64, f64);
+
+/// Lower bound of the angular frequency of a motion `[rad/s]`. Times of lower ones, such as the reach of a wavelet, may overflow.
+const SLOWEST: f64 = 1e-100;
 
 /// Lower bound of the sampling interval of a motion `[s]`. With shorter intervals, samples of a long record would have the same time.
 const SHORTEST_INTERVAL: f64 = 1e-9;
@@ -458,5 +463,22 @@ pub(crate) mod tests {
         let gabor = |velocity| Motion::Gabor { velocity, omega: 2e3, start: 0.0, phase: 0.0, gamma: 2.0 };
         assert_eq!(gabor(100.0).invalid(1e6), []);
         assert_eq!(gabor(1e3).invalid(1e6), [("velocity".into(), 2e6)], "the acceleration is out of range");
+        // The reach of a wavelet over its frequency would be infinite, and all its values no numbers.
+        let ricker = |omega| Motion::Ricker { amplitude: 1.0, omega, start: 0.0 };
+        assert_eq!(ricker(1e-308).invalid(1e6), [("omega".into(), 1e-308)]);
+        assert!(ricker(1e-99).invalid(1e6).is_empty() && ricker(1e-99).value(1.0).is_finite());
+        let wide = Motion::Gabor { velocity: 1.0, omega: 1.1e-100, start: 0.0, phase: 0.0, gamma: 1e6 };
+        assert!(wide.invalid(1e6).is_empty() && wide.value(1.0).is_finite());
+    }
+
+    #[test]
+    fn factors_that_leave_no_numbers_are_refused() {
+        let sine = Motion::SinePulse { amplitude: 1e200, omega: 1.0, start: 0.0 };
+        assert!(sine.clone().scaled(1e200).is_err() && sine.scaled(1e100).is_ok());
+        let gabor = Motion::Gabor { velocity: 1e200, omega: 1.0, start: 0.0, phase: 0.0, gamma: 2.0 };
+        assert!(Motion::Sum { terms: vec![gabor] }.scaled(1e200).is_err());
+        // Samples are zero, or tiny: their factor is not written.
+        let record = Record::new(vec![0.0, 1e-305, 0.0], 0.1, 0.0).and_then(|record| record.scaled(1e308));
+        assert!(record.expect("a record").scaled(10.0).is_err());
     }
 }

@@ -128,6 +128,18 @@ pub(crate) fn finite_factor(factor: f64) -> Result<(), RecordError> {
     }
 }
 
+/// A size times a factor.
+///
+/// # Errors
+/// [`RecordError::OutOfRange`] where the product is not finite and the size is.
+pub(crate) fn finite_product(size: f64, factor: f64) -> Result<f64, RecordError> {
+    let product = size * factor;
+    match product.is_finite() || !size.is_finite() {
+        true => Ok(product),
+        false => Err(RecordError::OutOfRange { name: "factor", value: factor, wanted: "a smaller one" }),
+    }
+}
+
 impl Record {
     /// A record of `accel [m/s²]` every `dt [s]` from `start [s]`.
     ///
@@ -286,7 +298,8 @@ impl Record {
         finite_factor(factor)?;
         let scaled = Record::new(self.accel.iter().map(|a| a * factor).collect(), self.dt, self.start)?;
         let Record { source, first_sample, warnings, .. } = self;
-        Ok(Record { scale: self.scale * factor, source, first_sample, warnings, ..scaled })
+        let scale = finite_product(self.scale, factor)?;
+        Ok(Record { scale, source, first_sample, warnings, ..scaled })
     }
 
     /// The record scaled to this peak `[m/s²]`; one below zero turns the motion round.

@@ -69,7 +69,7 @@ impl Timeline {
     /// reaches `limit` `[m/s]`.
     ///
     /// # Panics
-    /// Unless [`Lookahead::impulses`] was requested.
+    /// Unless [`Lookahead::impulses`] was requested, or if there is no such segment.
     pub fn impulse_from(&self, segment: usize, t: f64, limit: f64) -> Option<f64> {
         let Segment { end, horizontal, vertical, .. } = &self.segments[segment];
         let mut sum = self.impulses[segment];

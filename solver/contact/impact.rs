@@ -34,7 +34,7 @@ pub struct ImpactLaw<'a> {
 /// [`SingularMass`]
 ///
 /// # Panics
-/// If a list does not have an entry for each of the column's N blocks, or an interface of `closing` is not below N.
+/// If a list does not have an entry for each of the column's N blocks, or an interface of `closing` is not below N, or there twice.
 pub fn impact(
     column: &Column,
     pattern: &Pattern,

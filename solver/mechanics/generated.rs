@@ -382,7 +382,8 @@ fn pivot(column: &Column, pattern: &Pattern, interface: usize) -> f64 {
 /// The constants of a column with aligned contacts, as the generated equations read them.
 ///
 /// # Panics
-/// If a contact is off the middle of one of its faces, or a centroid is off mid-height: equations of such columns have more constants.
+/// If a contact is off the middle of one of its faces, or a centroid is off mid-height: equations of such columns have more constants. If the pattern has fewer
+/// interfaces than the column.
 pub fn geometry(column: &Column, pattern: &Pattern) -> Geometry<f64> {
     assert!(column.is_plain(), "a contact is off the middle of a face, or a centroid off mid-height");
     let blocks = column.blocks();

@@ -93,7 +93,7 @@ impl<'a> Posture<'a> {
     /// angles.
     ///
     /// # Panics
-    /// If pattern or angles are not as many as the blocks.
+    /// If pattern or angles are fewer than the blocks; more are not read.
     pub fn new(column: &'a Column, pattern: &Pattern, theta: &[f64]) -> Posture<'a> {
         let size = Any(column.len());
         Posture::of(size, column, &pattern.0, &Turn::all(size, theta))
@@ -427,7 +427,7 @@ pub struct Outline {
 /// ```
 ///
 /// # Panics
-/// If pattern or angles are not as many as the blocks.
+/// If pattern or angles are fewer than the blocks; more are not read.
 pub fn outlines(column: &Column, pattern: &Pattern, theta: &[f64]) -> Vec<Outline> {
     let posture = Posture::new(column, pattern, theta);
     let outline = |(index, block): (usize, &Block)| {

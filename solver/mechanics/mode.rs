@@ -54,6 +54,9 @@ impl Default for IntegrateOptions {
     }
 }
 
+/// Largest number of steps, refused ones among them, that [`Mode::integrate`] takes.
+pub const MOST_STEPS: usize = 10_000_000;
+
 /// Why [`Mode::integrate`] has no answer.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -98,6 +101,12 @@ pub enum IntegrateError {
         name: &'static str,
         /// Value given.
         value: f64,
+    },
+    /// The times take more than [`MOST_STEPS`] steps.
+    #[error("at t = {time} s, after {MOST_STEPS} steps: give fewer or shorter times, or loosen rtol and atol")]
+    TooManySteps {
+        /// Time reached `[s]`.
+        time: f64,
     },
     /// The tolerance cannot be met with steps that still advance the time.
     #[error("at t = {time} s: the step has fallen to {step:e} s; loosen rtol and atol")]
@@ -246,6 +255,7 @@ impl Mode {
         let mut integrator = self.integrator(options.method, self.gravity, options.rtol, options.step);
         let (mut t, mut states) = (first, vec![x.to_vec()]);
         let (mut suggested, mut has_begun) = (f64::INFINITY, false);
+        let mut attempts = 0usize;
         for segment in segments.iter().filter(|segment| segment.end > first) {
             let end = segment.end.min(last);
             integrator.enter(segment);
@@ -257,6 +267,10 @@ impl Mode {
             let mut longest = f64::INFINITY;
             while t < end {
                 let left = end - t;
+                attempts += 1;
+                if attempts > MOST_STEPS {
+                    return Err(IntegrateError::TooManySteps { time: t });
+                }
                 let attempt = integrator.attempt(t, suggested, left.min(longest), tolerance);
                 suggested = attempt.suggested;
                 if !attempt.is_good() {
@@ -340,6 +354,16 @@ mod tests {
     use super::*;
     use crate::column::Column;
     use rocking_ground::{Excitation, Motion};
+
+    /// A link that turns 10^15 times a second would take years.
+    #[test]
+    fn a_mode_alone_takes_so_many_steps_and_no_more() {
+        let column = Column::equal_blocks(1, 0.4, 1.6, 1.0, 9.81).expect("valid");
+        let mode = Mode::generic(&column, &Pattern::from_signs(&[1])).expect("it moves");
+        let segments = Excitation::default().segments(0.2);
+        let ended = mode.integrate(&[0.0, 1e16], &segments, &[0.0, 0.1], &IntegrateOptions::default());
+        assert!(matches!(ended, Err(IntegrateError::TooManySteps { time }) if time < 0.1), "{ended:?}");
+    }
 
     /// A hole in the ground motion, and steps or tolerances with which a run would not end.
     #[test]

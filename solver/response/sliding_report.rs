@@ -80,6 +80,9 @@ impl SlidingReport {
     }
 
     /// Whether an interface (from zero) has slid or flown.
+    ///
+    /// # Panics
+    /// If the column has no such interface.
     pub fn has_moved(&self, interface: usize) -> bool {
         self.way_slid[interface] > 0.0 || self.flights[interface] > 0
     }

@@ -6,15 +6,13 @@ use super::cones::Limits;
 use super::error::SolveError;
 use super::modes::Modes;
 use super::problem::Problem;
+use super::progress::{STRETCHES_BETWEEN_REPORTS, report};
 use super::recorder::{Mark, Recorder};
 use super::state::State;
 use super::stretch::{Ended, Over, Stretch};
 use super::transition::{self, break_cycle, transition};
 use crate::numerics::per_block::PerBlock;
 use std::ops::ControlFlow;
-
-/// Stretches of a phase between two calls of the progress function.
-pub(crate) const STRETCHES_BETWEEN_REPORTS: usize = 1024;
 
 /// Why the loop is left.
 pub(crate) enum Leaving {
@@ -89,8 +87,9 @@ pub(crate) fn event_loop<L: Limits>(
     let mut stretches = 0usize;
     let (mut mode, mut motion) = modes.enter(problem, after);
     loop {
-        let mut stretch = match motion.next(problem) {
+        let mut stretch = match motion.next(problem, progress) {
             Ok(stretch) => stretch,
+            Err(error @ SolveError::Cancelled { .. }) => return Err(error),
             Err(_) if L::ARE_THERE => return Ok(Leaving::Beyond(rollback.before(recorder, spare))),
             Err(error) => return Err(error),
         };
@@ -108,9 +107,11 @@ pub(crate) fn event_loop<L: Limits>(
             }
             continue;
         };
+        // A rest that nothing ends is over where it began.
+        let reached = stretch.end;
         let before = stretch.inside.end(after);
         recorder.leave(problem, mode, before);
-        report(progress, before.t)?;
+        report(progress, reached)?;
         if let Ended::Over(over) = ended {
             return Ok(Leaving::Over(before.clone(), over));
         }
@@ -204,9 +205,4 @@ impl Rollback {
             }
         }
     }
-}
-
-/// Reports the time; an error if the caller stops the run.
-pub(crate) fn report(progress: &mut dyn FnMut(f64) -> ControlFlow<()>, t: f64) -> Result<(), SolveError> {
-    if progress(t).is_break() { Err(SolveError::Cancelled { time: t }) } else { Ok(()) }
 }

@@ -15,6 +15,7 @@ mod panel_forces;
 mod phase;
 mod phase_motion;
 mod problem;
+mod progress;
 mod recorder;
 mod rest;
 mod rest_guards;

@@ -17,6 +17,7 @@ use crate::numerics::per_block::PerBlock;
 use crate::numerics::polynomial::difference::Difference;
 use crate::response::Work;
 use rocking_codegen::pattern::Interface;
+use std::ops::ControlFlow;
 
 impl Phase {
     /// Sets how many roots of each gap lie at the start, the state `inside`: by its gap, rate and acceleration there. The acceleration of a gap in
@@ -171,7 +172,11 @@ impl Flow for Phase {
         self.forces.forget();
     }
 
-    fn next(&mut self, problem: &Problem) -> Result<Stretch<'_>, SolveError> {
+    fn next(
+        &mut self,
+        problem: &Problem,
+        _: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<Stretch<'_>, SolveError> {
         self.advance(problem);
         let ended = self.find_stretch(problem)?;
         let end = match &self.last.kind {

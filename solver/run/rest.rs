@@ -2,6 +2,7 @@
 
 use super::error::SolveError;
 use super::problem::Problem;
+use super::progress::find_at_rest;
 use super::rest_guards::GroundWithBounds;
 use super::start_from_rest::{earliest_start, is_thrown_open, least_uplift};
 use super::state::State;
@@ -12,6 +13,7 @@ use crate::numerics::guards::first_crossing;
 use crate::numerics::per_block::PerBlock;
 use crate::response::Work;
 use rocking_ground::Segment;
+use std::ops::ControlFlow;
 
 /// Number of times per radian of the ground motion at which contact forces at rest are recorded. Crests of the forces are recorded in addition; one is
 /// missed only where [`LEAST_AND_MOST_PLACES`] limits the number of places: in a rest of 1,300 cycles or more.
@@ -45,7 +47,11 @@ impl Flow for Rest {
     }
 
     /// Waits for the start, a jump of the ground acceleration that starts the column, or the end: one stretch, whatever the ground does in it.
-    fn next(&mut self, problem: &Problem) -> Result<Stretch<'_>, SolveError> {
+    fn next(
+        &mut self,
+        problem: &Problem,
+        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<Stretch<'_>, SolveError> {
         let limit = least_uplift(&problem.scene.column);
         let (mut t, mut index) = self.since;
         self.is_final = false;
@@ -55,13 +61,13 @@ impl Flow for Rest {
                 t = self.held_until.min(segment.end);
             }
             self.work.rest_stretches += usize::from(problem.skips.rests);
-            if let Some((start, interface, side)) = earliest_start(problem, segment, t, limit) {
+            self.last = index;
+            let start = find_at_rest(segment, t, progress, |span| earliest_start(problem, segment, span, limit))?;
+            if let Some((start, interface, side)) = start {
                 t = start;
-                self.last = index;
                 break Ended::Opening(interface, side);
             }
             t = segment.end;
-            self.last = index;
             if index + 1 == problem.ground.len() {
                 self.is_final = true;
                 break Ended::Over(Over::AtRest);

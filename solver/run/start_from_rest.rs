@@ -22,19 +22,19 @@ pub(super) fn least_uplift(column: &Column) -> f64 {
 /// Share of [`least_uplift`] below which rounding cannot open an interface.
 const CLEAR_SHARE: f64 = 1.0 - 1e-9;
 
-/// The first opening of the column at rest between `t` and the end of a segment: time `[s]`, interface (from zero) and side. `limit` is [`least_uplift`].
+/// The first opening of the column at rest in a span of a segment `[s]`: time `[s]`, interface (from zero) and side. `limit` is [`least_uplift`].
 pub(super) fn earliest_start(
     problem: &Problem,
     segment: &Segment,
-    t: f64,
+    [t, until]: [f64; 2],
     limit: f64,
 ) -> Option<(f64, usize, Interface)> {
     if !problem.skips.rests {
-        return by_steps(problem, segment, t);
+        return by_steps(problem, segment, [t, until]);
     }
     if let (Piece::Linear { .. }, Piece::Zero) = (&segment.horizontal, &segment.vertical) {
         // A record has many segments, all linear in time: the largest acceleration of one is at an end.
-        let largest = segment.horizontal.value(t).abs().max(segment.horizontal.value(segment.end).abs());
+        let largest = segment.horizontal.value(t).abs().max(segment.horizontal.value(until).abs());
         if largest < CLEAR_SHARE * limit {
             return None;
         }
@@ -42,7 +42,7 @@ pub(super) fn earliest_start(
     if segment.is_quiet() {
         return None;
     }
-    start_before(problem, segment, t + until_sine_is(CLEAR_SHARE * limit, segment, t), segment.end)
+    start_before(problem, segment, t + until_sine_is(CLEAR_SHARE * limit, segment, t), until)
 }
 
 /// For how long after `t` the ground's acceleration stays below `limit` in magnitude `[s]`; infinite if always. Zero if it is not a single sine.
@@ -70,14 +70,14 @@ fn until_sine_is(limit: f64, segment: &Segment, t: f64) -> f64 {
 const STEPS_PER_RADIAN_AND_SECOND: [f64; 2] = [20.0, 100.0];
 
 /// As [`earliest_start`], but nothing is left out: step by step, as an integrator would go.
-fn by_steps(problem: &Problem, segment: &Segment, from: f64) -> Option<(f64, usize, Interface)> {
+fn by_steps(problem: &Problem, segment: &Segment, [from, end]: [f64; 2]) -> Option<(f64, usize, Interface)> {
     let omega = segment.horizontal.omega().max(segment.vertical.omega());
     let step = 1.0 / (STEPS_PER_RADIAN_AND_SECOND[0] * omega).max(STEPS_PER_RADIAN_AND_SECOND[1]);
     let mut t = from;
     loop {
-        let until = (t + step).min(segment.end);
+        let until = (t + step).min(end);
         let start = start_before(problem, segment, t, until.next_up());
-        if start.is_some() || until >= segment.end {
+        if start.is_some() || until >= end {
             return start;
         }
         t = until;
@@ -157,10 +157,10 @@ fn guards_with_friction(column: &Column, fixed: &[f64]) -> impl Iterator<Item = 
     std::iter::once((weight, Guard::Press(0))).chain(of_interfaces)
 }
 
-/// The first instant in a segment from a time on at which an interface of a column at rest opens or slides, with the coefficients `fixed` of static
+/// The first instant in a span of a segment `[s]` at which an interface of a column at rest opens or slides, with the coefficients `fixed` of static
 /// friction.
-pub(crate) fn first_start(column: &Column, fixed: &[f64], segment: &Segment, from: f64) -> Option<(f64, Guard)> {
-    first_zero(segment, column.gravity(), [from, segment.end], || guards_with_friction(column, fixed))
+pub(crate) fn first_start(column: &Column, fixed: &[f64], segment: &Segment, span: [f64; 2]) -> Option<(f64, Guard)> {
+    first_zero(segment, column.gravity(), span, || guards_with_friction(column, fixed))
 }
 
 /// Whether a jump of the ground to a segment starts a column at rest, with the coefficients `fixed` of static friction.

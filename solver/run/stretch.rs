@@ -7,6 +7,7 @@ use crate::mechanics::dynamics::ContactForce;
 use crate::numerics::per_block::PerBlock;
 use crate::response::Work;
 use rocking_codegen::pattern::Interface;
+use std::ops::ControlFlow;
 
 /// Why a stretch ended. The tag has eight bytes, as in [`Over`]. With a tag of one byte a copy would wait for the separate stores that it spans: runs of one
 /// block would take a twentieth longer.
@@ -103,8 +104,15 @@ pub(crate) trait Flow: Send {
     /// Enters with `x⁺`.
     fn enter(&mut self, problem: &Problem, after: &State);
 
-    /// The next stretch.
-    fn next(&mut self, problem: &Problem) -> Result<Stretch<'_>, SolveError>;
+    /// The next stretch. `progress` is called within one that may take long.
+    ///
+    /// # Errors
+    /// [`SolveError`]; [`SolveError::Cancelled`] if `progress` stops the run.
+    fn next(
+        &mut self,
+        problem: &Problem,
+        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<Stretch<'_>, SolveError>;
 
     /// Takes the work counted since the last call; counting starts anew.
     fn take_work(&mut self) -> Work;

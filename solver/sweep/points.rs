@@ -43,6 +43,9 @@ impl Sweep {
     }
 
     /// Warnings about the ground motions of these points, a sentence each, each once: of all of them, or of `most` evenly spread ones.
+    ///
+    /// # Panics
+    /// If the sweep has no such points.
     pub fn warnings(&self, points: Range<usize>, most: usize) -> Vec<String> {
         let scenes = evenly_spread(points, most).filter_map(|point| self.scene(point).ok());
         Excitation::warnings_of_all(scenes.map(|scene| scene.excitation))

@@ -21,6 +21,9 @@ impl ModeLabel {
     }
 
     /// The independent pattern with this label in a column of `blocks` blocks; `None` if there is no such mode.
+    ///
+    /// # Panics
+    /// For more than 120 blocks.
     pub fn pattern(self, blocks: usize) -> Option<Pattern> {
         if self.lowest == 0 || self.lowest > blocks {
             return None;

@@ -31,6 +31,7 @@ mod transition;
 use super::error::SolveError;
 use super::modes::Modes;
 use super::problem::Problem;
+use super::progress::report;
 use crate::friction::contact_problem::Coefficients;
 use crate::friction::search::acceleration_scale;
 use crate::response::Response;
@@ -94,10 +95,15 @@ pub(super) fn run(
             return Ok(recorder.finish(at, stop, mover.work));
         }
         let (until, ended) = match sticking.pass(&at, recorder.rows(), progress)? {
-            Some(part) => end_of_part(&mut recorder, &at, *part),
+            Some(part) => {
+                let (until, ended) = end_of_part(&mut recorder, &at, *part);
+                report(progress, until.t)?;
+                (until, ended)
+            }
             None => {
                 let (mut until, ended) = mover.pass(&at, &mut recorder, progress)?;
                 recorder.leave(&at, &until);
+                report(progress, until.t)?;
                 if ended == SlidingEnded::Over(RunEnd::AtRest) {
                     // If nothing starts the column any more, the end is the time at which the rest began.
                     until.t = at.t;
@@ -105,9 +111,6 @@ pub(super) fn run(
                 (until, ended)
             }
         };
-        if progress(until.t).is_break() {
-            return Err(SolveError::Cancelled { time: until.t });
-        }
         if let SlidingEnded::Over(stop) = ended {
             return Ok(recorder.finish(until, stop, mover.work));
         }

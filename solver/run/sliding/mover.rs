@@ -14,8 +14,8 @@ use crate::friction::guards;
 use crate::numerics::ode::methods::Method;
 use crate::response::Work;
 use crate::run::error::SolveError;
-use crate::run::event_loop::{STRETCHES_BETWEEN_REPORTS, report};
 use crate::run::problem::Problem;
+use crate::run::progress::{STRETCHES_BETWEEN_REPORTS, find_at_rest, report};
 use crate::run::start_from_rest;
 use crate::scene::DynamicsSource;
 use std::ops::ControlFlow;
@@ -93,7 +93,8 @@ impl<'p> Mover<'p> {
     /// Moves the column until something happens.
     ///
     /// # Errors
-    /// [`SolveError`]; [`SolveError::Cancelled`] if `progress` stops the run, which is called every [`STRETCHES_BETWEEN_REPORTS`] steps.
+    /// [`SolveError`]; [`SolveError::Cancelled`] if `progress` stops the run, which is called every [`STRETCHES_BETWEEN_REPORTS`] steps, and at rest
+    /// after spans of the ground motion.
     pub fn pass(
         &mut self,
         from: &SlidingState,
@@ -101,7 +102,7 @@ impl<'p> Mover<'p> {
         progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<(SlidingState, SlidingEnded), SolveError> {
         if from.configuration.is_at_rest() {
-            return Ok(self.wait(from, recorder));
+            return self.wait(from, recorder, progress);
         }
         let options = &self.problem.scene.options;
         // Series have equations of their own. A run that asks for those written by hand, as a check of generated ones, takes order 8 instead.
@@ -123,19 +124,24 @@ impl<'p> Mover<'p> {
     }
 
     /// Waits at rest for the ground to start the column.
-    fn wait(&mut self, from: &SlidingState, recorder: &mut SlidingRecorder<'p>) -> (SlidingState, SlidingEnded) {
+    fn wait(
+        &mut self,
+        from: &SlidingState,
+        recorder: &mut SlidingRecorder<'p>,
+        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<(SlidingState, SlidingEnded), SolveError> {
         let column = self.column().clone().slid(from.configuration.slide.to_vec());
         let column = column.unwrap_or_else(|_| self.column().clone());
         let ground = self.problem.ground;
-        let starts =
-            |segment: usize, t: f64| start_from_rest::first_start(&column, &self.friction.fixed, &ground[segment], t);
         let mut rest = Resting { smooth: self.smooth(from), snapshot: None };
         let (mut t, mut segment) = (from.t, from.segment);
         let ended = loop {
             self.work.rest_stretches += 1;
-            let start = starts(segment, t);
-            let until = start.map_or(ground[segment].end, |(start, _)| start);
-            rest.smooth.segment = &ground[segment];
+            let own = &ground[segment];
+            let first = |span| start_from_rest::first_start(&column, &self.friction.fixed, own, span);
+            let start = find_at_rest(own, t, progress, first)?;
+            let until = start.map_or(own.end, |(start, _)| start);
+            rest.smooth.segment = own;
             recorder.rest(&column, segment, [t, until], &mut rest);
             t = until;
             if let Some((_, guard)) = start {
@@ -150,7 +156,7 @@ impl<'p> Mover<'p> {
                 break SlidingEnded::Jump;
             }
         };
-        (SlidingState { t, segment, configuration: from.configuration.clone() }, ended)
+        Ok((SlidingState { t, segment, configuration: from.configuration.clone() }, ended))
     }
 
     fn smooth(&self, from: &SlidingState) -> Smooth<'p> {
