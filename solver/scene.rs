@@ -520,7 +520,9 @@ impl Scene {
                     Some("dt") => "give an interval above 1e-9 s, up to 1e6",
                     Some("velocity") => "it is the velocity or velocity · omega; let both be up to 1e6",
                     Some("cycles") => "give a whole number of cycles from 1 to 1e6",
-                    _ => "give a size up to 1e6, for omega above 1e-100, for a duration above zero",
+                    Some("omega") => "give a frequency above 1e-100 rad/s, up to 1e6",
+                    Some("duration") => "give a duration above zero, up to 1e6 s",
+                    _ => "give a size up to 1e6",
                 };
                 faults.note(&format!("excitation.{component}.{name}"), format!("{value} is out of range"), remedy);
             }

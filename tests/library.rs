@@ -65,6 +65,18 @@ fn runs_that_slide_are_observed_every_thousand_steps() {
     assert!(matches!(stopped, Err(SolveError::Cancelled { time }) if time < 0.03), "{stopped:?}");
 }
 
+/// Times that a run reports, which never fall.
+fn reported(scene: &Scene) -> Vec<f64> {
+    let mut times = Vec::new();
+    let observed = simulate_observed(scene, |t| {
+        times.push(t);
+        Continue(())
+    });
+    assert_eq!(observed.expect("a run"), simulate(scene).expect("a run"));
+    assert!(times.is_sorted(), "{times:?}");
+    times
+}
+
 /// A rest is one stretch, whatever the ground does in it: long ones were one call, at their end, and could not be stopped.
 #[test]
 fn columns_at_rest_are_observed() {
@@ -74,18 +86,41 @@ fn columns_at_rest_are_observed() {
     scene.options.t_end = 500.0;
     for friction in [None, Some(Friction::uniform(0.8))] {
         scene.friction = friction;
-        let (mut times, whole) = (Vec::new(), simulate(&scene).expect("a run"));
-        let observed = simulate_observed(&scene, |t| {
-            times.push(t);
-            Continue(())
-        });
-        assert_eq!(observed.expect("a run"), whole);
-        assert_eq!(Fate::of(&whole), Fate::NoUplift);
+        assert_eq!(Fate::of(&simulate(&scene).expect("a run")), Fate::NoUplift);
         // 130,000 radians, a call after each 10,000.
-        assert!(times.len() >= 13 && times.is_sorted(), "{times:?}");
+        let times = reported(&scene);
+        assert!(times.len() >= 13, "{times:?}");
         let stopped = simulate_observed(&scene, |_| Break(()));
         assert!(matches!(stopped, Err(SolveError::Cancelled { time }) if (38.0..39.0).contains(&time)), "{stopped:?}");
     }
+    // Two harmonics drift apart: the block rests for 95 s, and then slides. The rest is tried without sliding first.
+    let mut squat = Scene::new(Column::equal_blocks(1, 0.5, 0.5, 1.0, GRAVITY).expect("valid"));
+    squat.excitation.horizontal = Some(Motion::Sum { terms: vec![harmonic(1.2, 200.0), harmonic(-1.2, 200.02)] });
+    (squat.friction, squat.options.t_end) = (Some(Friction::uniform(0.2)), 97.0);
+    let response = simulate(&squat).expect("a run");
+    assert!(response.sliding.expect("friction").way_slid[0] > 0.0 && (94.0..96.0).contains(&response.events[0].t));
+    assert!(reported(&squat).iter().any(|t| (49.0..51.0).contains(t)));
+    let stopped = simulate_observed(&squat, |t| if t > 40.0 { Break(()) } else { Continue(()) });
+    assert!(matches!(stopped, Err(SolveError::Cancelled { time }) if time < 51.0), "{stopped:?}");
+    // A record has a piece a sample.
+    let samples: Vec<f64> = (0..20_000).map(|sample| if sample % 2 == 0 { 0.1 } else { -0.1 }).collect();
+    squat.excitation.horizontal = Some(Motion::Record(Record::new(samples, 0.001, 0.0).expect("valid")));
+    squat.options.t_end = 20.0;
+    for friction in [None, Some(Friction::uniform(0.2))] {
+        squat.friction = friction;
+        assert!(reported(&squat).len() >= 19);
+    }
+}
+
+/// A run that slides, rocks and comes to rest, with parts in which everything sticks.
+#[test]
+fn times_that_are_reported_never_fall() {
+    let mut scene = pulse(Column::equal_blocks(2, 0.4, 1.6, 1000.0, GRAVITY).expect("valid"), 5.0, 10.0);
+    (scene.friction, scene.options.t_end) = (Some(Friction::uniform(0.3)), 60.0);
+    let response = simulate(&scene).expect("a run");
+    assert_eq!(response.status, StopReason::AtRest);
+    assert!(response.sliding.expect("friction").is_any());
+    assert!(reported(&scene).len() > response.events.len() / 2);
 }
 
 /// A column wider at its top rocks without sliding: what was recorded for its limits of friction alone stayed in the response, which did not read

@@ -1,6 +1,10 @@
 //! Runs with friction against those of an independent time-stepping program (`../shared/reference-friction`).
 
-use rocking::{Response, Scene, simulate};
+#[path = "common/differences.rs"]
+mod differences;
+
+use differences::difference;
+use rocking::{Scene, simulate};
 use serde_json::Value;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -108,18 +112,6 @@ fn check(name: &str) {
     assert!(residual_slides <= m, "{name}: residual slides off by {residual_slides:e} m, allowed {m:e}");
 }
 
-/// Largest difference of an angle `[rad]` or a place `[m]` between two runs of a scene.
-fn difference(a: &Response, b: &Response) -> f64 {
-    assert_eq!((a.status, a.samples.len()), (b.status, b.samples.len()));
-    let rows = a.samples.iter().zip(&b.samples);
-    let differences = rows.flat_map(|(a, b)| {
-        let angles = a.theta.iter().zip(&b.theta).map(|(a, b)| a - b);
-        let places = a.blocks.iter().zip(&b.blocks);
-        angles.chain(places.flat_map(|(a, b)| [a.place[0] - b.place[0], a.place[1] - b.place[1]]))
-    });
-    differences.fold(0.0, |most, difference| most.max(difference.abs()))
-}
-
 fn converges(name: &str) {
     let run = reference(name);
     let at = |rtol: f64| {
@@ -130,9 +122,8 @@ fn converges(name: &str) {
     let finest = at(1e-13);
     let off = [1e-9, 1e-10, 1e-11, 1e-12].map(|rtol| difference(&at(rtol), &finest));
     println!("{name}: {off:?} as rtol falls from 1e-9 to 1e-12");
-    // Measured: 1e-8, 5e-9, 8e-10, 2e-11 where a block crosses its balance (f_n1_slide_rock, which magnifies errors some hundred times), and
-    // 4e-9, 5e-10, 1e-10, 1e-11 elsewhere. Events are the same ones at all of them.
-    assert!(off[0] < 3e-8 && off[2] < 1e-9 && off[3] < 1e-10, "{name}: {off:?}");
+    // Measured: 3.1e-10, 2.8e-11, 1.7e-12, 2.3e-13 at most. Events are the same ones at all of them.
+    assert!(off[0] < 1e-9 && off[1] < 1e-10 && off[2] < 5e-12 && off[3] < 1e-12, "{name}: {off:?}");
 }
 
 macro_rules! references {

@@ -110,7 +110,7 @@ pub enum Failure {
     NoColumn(String),
     /// `--scale-to` names a measure of a column that does not stand by itself.
     #[error(
-        "--scale-to {0}: the column of --scene does not stand by itself, and nothing has that size; name another measure"
+        "--scale-to {0}: the column of --scene does not stand by itself, so that no acceleration opens its base; name another measure"
     )]
     NoUplift(String),
     /// `--damping` is given where no spectral acceleration takes it.

@@ -6,7 +6,7 @@
 use crate::catalogue::{Catalogue, catalogue_of};
 use crate::derivation::Plan;
 use crate::error::GenerateError;
-pub use crate::error::LARGEST_BAKED;
+pub use crate::error::{BAKED_INERTIAS, BAKED_SIZES, LARGEST_BAKED};
 use crate::ground::GroundMotion;
 use crate::mechanics::{Bodies, Symbols, equations_of_motion};
 use crate::optimise::{Form, Parts, Program, acceleration_program};
@@ -59,15 +59,13 @@ impl BakedColumn {
         if !(1..=LARGEST_BAKED).contains(&blocks) {
             return Err(GenerateError::BakedSize { blocks });
         }
-        // Equations have products of several sizes; where one overflows, or vanishes, terms would be missing from the code without a word.
-        let is_size = |value: f64| (1e-30..=1e30).contains(&value);
-        let is_inertia = |value: f64| (1e-90..=1e90).contains(&value);
+        let is_size = |value: f64| BAKED_SIZES.contains(&value);
         for (index, block) in self.blocks.iter().enumerate() {
             for (name, value, is_within) in [
                 ("half_width", block.half_width, is_size(block.half_width)),
                 ("half_height", block.half_height, is_size(block.half_height)),
                 ("mass", block.mass, is_size(block.mass)),
-                ("inertia", block.inertia, is_inertia(block.inertia)),
+                ("inertia", block.inertia, BAKED_INERTIAS.contains(&block.inertia)),
             ] {
                 if !is_within {
                     return Err(GenerateError::BakedValue { name: format!("{name} of block {}", index + 1), value });
@@ -126,8 +124,7 @@ pub struct BakedCatalogue {
 /// Derives the modes of a column of given sizes.
 ///
 /// # Errors
-/// [`GenerateError`] if the number of blocks is out of range, or if gravity or a size is not above zero, or out of the range that products of sizes
-/// can have.
+/// [`GenerateError`] if the number of blocks is out of range, or gravity or a size not in that of [`BAKED_SIZES`], or an inertia not in that of [`BAKED_INERTIAS`].
 pub fn baked_catalogue(column: &BakedColumn) -> Result<BakedCatalogue, GenerateError> {
     column.check()?;
     let blocks = column.blocks.len();
@@ -188,7 +185,7 @@ mod tests {
     #[test]
     fn sizes_out_of_range_are_refused() {
         let column = |half_width: f64, half_height: f64, mass: f64, gravity: f64| {
-            let inertia = mass * half_height * half_height;
+            let inertia = 0.5 * mass * half_height * half_height;
             let block = BakedBlock { half_width, half_height, mass, inertia };
             BakedColumn { gravity, blocks: vec![block; 2] }
         };
@@ -201,8 +198,16 @@ mod tests {
             let refused = baked_catalogue(&column).expect_err("out of range").to_string();
             assert!(refused.starts_with(told) && refused.contains("from 1e-30 to 1e30"), "{refused}");
         }
-        for (sizes, mass) in [(1e29, 1e29), (1e-29, 1e-29)] {
-            let catalogue = baked_catalogue(&column(sizes, sizes, mass, sizes)).expect("in range");
+        let heavy = BakedBlock { half_width: 0.3, half_height: 1.0, mass: 1.0, inertia: 1e91 };
+        let refused = baked_catalogue(&BakedColumn { gravity: 9.81, blocks: vec![heavy] }).expect_err("out of range");
+        assert!(refused.to_string().starts_with("inertia of block 1 is 1e91: "), "{refused}");
+        for (half_width, half_height, mass, gravity) in [
+            (1e29, 1e29, 1e29, 1e29),
+            (1e-29, 1e-29, 1e-29, 1e-29),
+            (1e-30, 1e30, 1e30, 1e-30),
+            (1e30, 1e-29, 1e-30, 1e30),
+        ] {
+            let catalogue = baked_catalogue(&column(half_width, half_height, mass, gravity)).expect("in range");
             let constants = catalogue.modes.iter().flat_map(|mode| &mode.accelerations).flat_map(|(_, values)| values);
             assert!(constants.clone().count() > 0 && constants.clone().all(|(_, value)| value.is_normal()));
         }

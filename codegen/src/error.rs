@@ -1,12 +1,20 @@
 //! Errors of the generator, and the limits on the number of blocks.
 
 use std::fmt;
+use std::ops::RangeInclusive;
 
 /// Largest number of blocks that can be generated. For larger columns, the list of linkages alone is too long for a build.
 pub const LARGEST: usize = 12;
 
 /// The largest column that can be baked: seven blocks have 1093 modes, each with code of its own.
 pub const LARGEST_BAKED: usize = 6;
+
+/// Half-widths and half-heights `[m]`, masses `[kg]` and gravity `[m/s²]` of a baked column. Equations have products of several sizes: where one overflows or
+/// vanishes, terms would be missing from the code without a word.
+pub const BAKED_SIZES: RangeInclusive<f64> = 1e-30..=1e30;
+
+/// Moments of inertia of the blocks of a baked column `[kg m²]`.
+pub const BAKED_INERTIAS: RangeInclusive<f64> = 1e-90..=1e90;
 
 /// Why nothing was generated.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,7 +30,7 @@ pub enum GenerateError {
         /// The number requested.
         blocks: usize,
     },
-    /// A size of a baked column is not a number above zero, or so small or large that products of sizes are out of the range of doubles.
+    /// A size of a baked column is not in the range of [`BAKED_SIZES`], or an inertia not in that of [`BAKED_INERTIAS`].
     BakedValue {
         /// The size, e.g. `mass of block 2`.
         name: String,
@@ -48,10 +56,7 @@ impl fmt::Display for GenerateError {
                 write!(f, "a column of {blocks} block(s) is not baked: from 1 to {LARGEST_BAKED} are; use `generate`")
             }
             GenerateError::BakedValue { name, value } => {
-                write!(
-                    f,
-                    "{name} is {value:?}: give a number above zero, from 1e-30 to 1e30 (of an inertia, from 1e-90 to 1e90)"
-                )
+                write!(f, "{name} is {value:?}: give a number from 1e-30 to 1e30, or for an inertia from 1e-90 to 1e90")
             }
             GenerateError::Programs { found, expected } => write!(
                 f,

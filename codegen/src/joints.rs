@@ -197,7 +197,7 @@ impl fmt::Display for Joints {
 }
 
 /// Number of combinations of states by free angles and translations, `[angles][translations]`; `10^N` combinations in all for `N = blocks`. Numbers
-/// above those of `u64`, which only columns of more than 19 blocks have, are the largest one.
+/// beyond `u64`, which only columns of more than 20 blocks have, are `u64::MAX`.
 pub fn combinations(blocks: usize) -> Vec<Vec<u64>> {
     let mut counts = vec![vec![0; 2 * blocks + 1]; blocks + 1];
     counts[0][0] = 1;

@@ -199,7 +199,8 @@ impl Motion {
     /// The motion with its acceleration multiplied by a factor.
     ///
     /// # Errors
-    /// [`RecordError::OutOfRange`] for a factor that is not finite, [`RecordError::Acceleration`] for samples of a record out of range.
+    /// [`RecordError::OutOfRange`] for a factor that is not finite, or with which a size or the scale of a record is not, [`RecordError::Acceleration`] for samples
+    /// of a record out of range.
     ///
     /// ```
     /// let pulse = rocking_ground::Motion::SinePulse { amplitude: 2.0, omega: 8.0, start: 0.0 };
@@ -215,7 +216,8 @@ impl Motion {
                 let scaled: Result<_, _> = terms.drain(..).map(|term| term.scaled(factor)).collect();
                 *terms = scaled?;
             }
-            Motion::MavroeidisPapageorgiou { velocity, .. } | Motion::Gabor { velocity, .. } => {
+            Motion::MavroeidisPapageorgiou { velocity, omega, .. } | Motion::Gabor { velocity, omega, .. } => {
+                finite_product(*velocity * *omega, factor)?;
                 *velocity = finite_product(*velocity, factor)?;
             }
             motion => {
@@ -477,6 +479,8 @@ pub(crate) mod tests {
         assert!(sine.clone().scaled(1e200).is_err() && sine.scaled(1e100).is_ok());
         let gabor = Motion::Gabor { velocity: 1e200, omega: 1.0, start: 0.0, phase: 0.0, gamma: 2.0 };
         assert!(Motion::Sum { terms: vec![gabor] }.scaled(1e200).is_err());
+        let fast = Motion::Gabor { velocity: 1e200, omega: 1e10, start: 0.0, phase: 0.0, gamma: 2.0 };
+        assert!(fast.clone().scaled(1e105).is_err() && fast.scaled(1e90).is_ok());
         // Samples are zero, or tiny: their factor is not written.
         let record = Record::new(vec![0.0, 1e-305, 0.0], 0.1, 0.0).and_then(|record| record.scaled(1e308));
         assert!(record.expect("a record").scaled(10.0).is_err());

@@ -128,10 +128,10 @@ pub(crate) fn finite_factor(factor: f64) -> Result<(), RecordError> {
     }
 }
 
-/// A size times a factor.
+/// A size times a factor. A size that was not finite before is let through: `Motion::invalid` names it.
 ///
 /// # Errors
-/// [`RecordError::OutOfRange`] where the product is not finite and the size is.
+/// [`RecordError::OutOfRange`] where the product is not finite.
 pub(crate) fn finite_product(size: f64, factor: f64) -> Result<f64, RecordError> {
     let product = size * factor;
     match product.is_finite() || !size.is_finite() {

@@ -153,7 +153,7 @@ impl Scene {
     fn unit_of(&self, measure: &str, sa_period: Option<f64>, sa_damping: Option<f64>) -> PyResult<(f64, f64)> {
         let column = &self.scene.column;
         let unit = intensity(measure, sa_period, sa_damping)?.unit_size(column).ok_or_else(|| {
-            PyValueError::new_err(format!("the column does not stand by itself: nothing has a size in {measure}"))
+            PyValueError::new_err(format!("the column does not stand by itself: no acceleration opens its base; give another measure than {measure}"))
         })?;
         Ok((unit, column.gravity()))
     }

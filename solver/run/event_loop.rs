@@ -107,11 +107,9 @@ pub(crate) fn event_loop<L: Limits>(
             }
             continue;
         };
-        // A rest that nothing ends is over where it began.
-        let reached = stretch.end;
         let before = stretch.inside.end(after);
         recorder.leave(problem, mode, before);
-        report(progress, reached)?;
+        report(progress, before.t)?;
         if let Ended::Over(over) = ended {
             return Ok(Leaving::Over(before.clone(), over));
         }

@@ -7,7 +7,10 @@ use std::ops::ControlFlow;
 /// Stretches of a phase between two reports.
 pub(crate) const STRETCHES_BETWEEN_REPORTS: usize = 1024;
 
-/// Radians of the ground motion between two reports of a column at rest.
+/// Segments of the ground motion between two reports of a column at rest.
+const SEGMENTS_BETWEEN_REPORTS: usize = 1024;
+
+/// Radians of the ground motion in one segment between two reports of a column at rest.
 const RADIANS_BETWEEN_REPORTS: f64 = 1e4;
 
 /// Reports the time; an error if the caller stops the run.
@@ -15,7 +18,8 @@ pub(crate) fn report(progress: &mut dyn FnMut(f64) -> ControlFlow<()>, t: f64) -
     if progress(t).is_break() { Err(SolveError::Cancelled { time: t }) } else { Ok(()) }
 }
 
-/// What `find` finds in a segment under which the column rests, from `t` on, a span of [`RADIANS_BETWEEN_REPORTS`] after the other.
+/// What `find` finds in a segment under which the column rests, from `t` on. The search goes span by span, each of [`RADIANS_BETWEEN_REPORTS`], and the
+/// time is reported after each.
 ///
 /// # Errors
 /// [`SolveError::Cancelled`]
@@ -35,4 +39,16 @@ pub(crate) fn find_at_rest<S>(
         t = until;
         report(progress, t)?;
     }
+}
+
+/// Reports the time at which a column at rest comes to a segment of this number, of a few of them.
+///
+/// # Errors
+/// [`SolveError::Cancelled`]
+pub(crate) fn report_segment(
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    segment: usize,
+    t: f64,
+) -> Result<(), SolveError> {
+    if segment.is_multiple_of(SEGMENTS_BETWEEN_REPORTS) { report(progress, t) } else { Ok(()) }
 }

@@ -2,7 +2,7 @@
 
 use super::error::SolveError;
 use super::problem::Problem;
-use super::progress::find_at_rest;
+use super::progress::{find_at_rest, report_segment};
 use super::rest_guards::GroundWithBounds;
 use super::start_from_rest::{earliest_start, is_thrown_open, least_uplift};
 use super::state::State;
@@ -73,6 +73,7 @@ impl Flow for Rest {
                 break Ended::Over(Over::AtRest);
             }
             index += 1;
+            report_segment(progress, index, t)?;
             if problem.ground[index].jumps && is_thrown_open(problem, index, t) {
                 break Ended::Jump;
             }

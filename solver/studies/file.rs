@@ -74,7 +74,9 @@ impl IdaFile {
                 IdaError::FreeSwing(_) => ("free_swing", "leave it out for 10 s"),
                 IdaError::Record { .. } => ("records", "leave the record out, or choose another measure"),
                 IdaError::SameName(_) => ("records", "rename one of them"),
-                IdaError::NoUplift(_) => ("measure", "choose a measure without `_uplift`, or other slides"),
+                IdaError::NoUplift(_) => {
+                    ("measure", "choose a measure without `_uplift`, or a scene whose column stands by itself")
+                }
                 IdaError::NoRecords => ("records", "give `files`, a `folder`, or [records.synthetic]"),
             };
             root.wrong(key, error.to_string(), remedy)

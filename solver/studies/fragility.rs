@@ -61,6 +61,24 @@ pub enum Fit {
     Falling,
 }
 
+impl Fit {
+    /// The names of all kinds, as they are in tables.
+    pub const NAMES: [&'static str; 7] = ["lognormal", "no-runs", "one-record", "never", "always", "step", "falling"];
+
+    /// The name of its kind in tables.
+    pub fn name(&self) -> &'static str {
+        Self::NAMES[match self {
+            Fit::Lognormal { .. } => 0,
+            Fit::NoRuns => 1,
+            Fit::OneRecord => 2,
+            Fit::Never { .. } => 3,
+            Fit::Always { .. } => 4,
+            Fit::Step { .. } => 5,
+            Fit::Falling => 6,
+        }]
+    }
+}
+
 /// The probability of a limit state given the intensity.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]

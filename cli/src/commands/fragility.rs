@@ -167,9 +167,6 @@ impl Conclusions {
     }
 }
 
-/// What a row of the table of curves says of its fit.
-pub const FITS: [&str; 7] = ["lognormal", "no-runs", "one-record", "never", "always", "step", "falling"];
-
 /// A row of the table of curves.
 #[derive(Serialize)]
 struct Curve<'a> {
@@ -209,16 +206,9 @@ struct Curve<'a> {
 
 impl Curve<'_> {
     fn of<'a>(fragility: &Fragility, conclusions: &'a Conclusions) -> Curve<'a> {
-        let (fit, curve) = match fragility.fit {
-            Fit::Lognormal { median, dispersion, log_likelihood } => {
-                ("lognormal", Some([median, dispersion, log_likelihood]))
-            }
-            Fit::NoRuns => ("no-runs", None),
-            Fit::OneRecord => ("one-record", None),
-            Fit::Never { .. } => ("never", None),
-            Fit::Always { .. } => ("always", None),
-            Fit::Step { .. } => ("step", None),
-            _ => ("falling", None),
+        let curve = match fragility.fit {
+            Fit::Lognormal { median, dispersion, log_likelihood } => Some([median, dispersion, log_likelihood]),
+            _ => None,
         };
         let (bands, goodness) = (fragility.bands.as_ref(), fragility.goodness);
         let [none, all] = [0, 1].map(|end| match fragility.bounds?[end] {
@@ -230,7 +220,7 @@ impl Curve<'_> {
             state: fragility.state.to_string(),
             measure: &conclusions.measure,
             r#where: conclusions.rows.join("; "),
-            fit,
+            fit: fragility.fit.name(),
             median: curve.map(|curve| curve[0]),
             median_low: median.map(|band| band[0]),
             median_high: median.map(|band| band[1]),

@@ -21,7 +21,7 @@ use csv::StringRecord;
 use rocking::Fate;
 use rocking::intensity::Intensity;
 use rocking::studies::{
-    DEFAULT_STATES, FRACTILES, FragilityOptions, Ida, IdaFile, IdaRun, Layout, LimitState, Stripe, stripes,
+    DEFAULT_STATES, FRACTILES, Fit, FragilityOptions, Ida, IdaFile, IdaRun, Layout, LimitState, Stripe, stripes,
 };
 use rocking::sweep::ERROR;
 use rocking::trust::Degree;
@@ -166,7 +166,7 @@ fn asked(table: &Path) -> Result<Option<(Vec<LimitState>, FragilityOptions)>, Fa
             return Err(refused(format!("row {}: limit state `{own}` is there twice", number + 1)));
         }
         states.push(own);
-        if !fragility::FITS.contains(&cell(fit)) {
+        if !Fit::NAMES.contains(&cell(fit)) {
             return Err(wrong("fit", cell(fit)));
         }
         if let Some(name) = layout.map(cell) {

@@ -95,15 +95,10 @@ pub(super) fn run(
             return Ok(recorder.finish(at, stop, mover.work));
         }
         let (until, ended) = match sticking.pass(&at, recorder.rows(), progress)? {
-            Some(part) => {
-                let (until, ended) = end_of_part(&mut recorder, &at, *part);
-                report(progress, until.t)?;
-                (until, ended)
-            }
+            Some(part) => end_of_part(&mut recorder, &at, *part),
             None => {
                 let (mut until, ended) = mover.pass(&at, &mut recorder, progress)?;
                 recorder.leave(&at, &until);
-                report(progress, until.t)?;
                 if ended == SlidingEnded::Over(RunEnd::AtRest) {
                     // If nothing starts the column any more, the end is the time at which the rest began.
                     until.t = at.t;
@@ -111,6 +106,7 @@ pub(super) fn run(
                 (until, ended)
             }
         };
+        report(progress, until.t)?;
         if let SlidingEnded::Over(stop) = ended {
             return Ok(recorder.finish(until, stop, mover.work));
         }

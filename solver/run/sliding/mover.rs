@@ -15,7 +15,7 @@ use crate::numerics::ode::methods::Method;
 use crate::response::Work;
 use crate::run::error::SolveError;
 use crate::run::problem::Problem;
-use crate::run::progress::{STRETCHES_BETWEEN_REPORTS, find_at_rest, report};
+use crate::run::progress::{STRETCHES_BETWEEN_REPORTS, find_at_rest, report, report_segment};
 use crate::run::start_from_rest;
 use crate::scene::DynamicsSource;
 use std::ops::ControlFlow;
@@ -94,7 +94,7 @@ impl<'p> Mover<'p> {
     ///
     /// # Errors
     /// [`SolveError`]; [`SolveError::Cancelled`] if `progress` stops the run, which is called every [`STRETCHES_BETWEEN_REPORTS`] steps, and at rest
-    /// after spans of the ground motion.
+    /// after spans and segments of the ground motion.
     pub fn pass(
         &mut self,
         from: &SlidingState,
@@ -151,6 +151,7 @@ impl<'p> Mover<'p> {
                 break SlidingEnded::Over(RunEnd::AtRest);
             }
             segment += 1;
+            report_segment(progress, segment, t)?;
             let starts = || start_from_rest::starts_at_jump(&column, &self.friction.fixed, &ground[segment], t);
             if ground[segment].jumps && starts() {
                 break SlidingEnded::Jump;
