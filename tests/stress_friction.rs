@@ -4,14 +4,14 @@
 //! coefficients of 0 to 3, blocks that are thrown, and vertical motion beyond gravity. Their coefficients above 0.8 have several motions, or none,
 //! at some instants (docs/book/model.md, section 16): how many runs meet such an instant, and how many end there, is counted, printed and bounded.
 
-#[path = "common/differences.rs"]
-mod differences;
+#[path = "common/everyday.rs"]
+mod everyday;
 #[path = "common/stress.rs"]
 mod scenes;
 
-use differences::difference;
+use everyday::everyday;
 use rocking::column::Shape;
-use rocking::{Block, Column, EventKind, Friction, Method, Motion, Response, Restitution, Scene, StopReason};
+use rocking::{Block, Column, EventKind, Friction, Method, Response, Restitution, Scene, StopReason};
 use rocking::{simulate, simulate_observed};
 use scenes::Random;
 use std::collections::BTreeMap;
@@ -37,45 +37,6 @@ const HOLDS_ALWAYS: f64 = 1e8;
 enum Kind {
     Everyday,
     Hostile,
-}
-
-/// A pulse of one of the kinds that engineers use.
-fn pulse(random: &mut Random, amplitude: f64) -> Motion {
-    let (omega, start) = (random.scale(2.0, 20.0), random.within(0.0, 0.2));
-    match random.below(5) {
-        0 => Motion::CosinePulse { amplitude, omega, start },
-        1 => Motion::Ricker { amplitude, omega, start },
-        2 => Motion::HalfSine { amplitude, omega, start },
-        3 => Motion::Rectangular { amplitude, start, duration: random.within(0.05, 0.5) },
-        _ => Motion::SinePulse { amplitude, omega, start },
-    }
-}
-
-fn everyday(random: &mut Random) -> Scene {
-    let count = 1 + random.below(3);
-    let is_equal = random.once_in(2);
-    let block = |random: &mut Random| Block::rectangle(random.within(0.2, 0.6), random.within(0.3, 1.0), 1.0);
-    let first = block(random);
-    let blocks = (0..count).map(|_| if is_equal { first } else { block(random) }).collect();
-    let mut scene = Scene::new(Column::new(blocks, GRAVITY).expect("valid"));
-    let coefficients: Vec<f64> = match random.below(3) {
-        0 => (0..count).map(|_| random.within(0.2, 0.8)).collect(),
-        _ => vec![random.within(0.2, 0.8); count],
-    };
-    let share = if random.once_in(3) { random.within(0.6, 1.0) } else { 1.0 };
-    let kinetic = coefficients.iter().map(|coefficient| share * coefficient).collect();
-    scene.friction = Some(Friction::new(coefficients, kinetic));
-    let amplitude = random.sign() * GRAVITY * random.within(0.1, 2.0);
-    scene.excitation.horizontal = Some(pulse(random, amplitude));
-    if random.once_in(4) {
-        let amplitude = random.sign() * GRAVITY * random.within(0.1, 0.8);
-        scene.excitation.vertical = Some(pulse(random, amplitude));
-    }
-    scene.options.t_end = 3.0;
-    scene.options.rtol = 1e-7;
-    scene.options.atol = 1e-10;
-    scene.output_dt = Some(0.05);
-    scene
 }
 
 fn hostile(random: &mut Random) -> Scene {
@@ -595,42 +556,6 @@ fn regression_a_contact_that_pulls_in_a_rebound_names_no_slide() {
         let tally = run(Kind::Hostile, seed);
         assert!(tally.broken.is_empty() && tally.parted.is_empty(), "{:?} {:?}", tally.broken, tally.parted);
     }
-}
-
-/// What slides while chatter dies out slides on until it ends: chatter that `stick_angle` ends early moves it by a time in proportion to its root.
-/// Prints the table of docs/book/methods.md.
-#[test]
-fn ends_of_chatter_move_slides_by_the_root_of_stick_angle() {
-    let at = |seed: u64, stick_angle: f64| {
-        let mut scene = scene(Kind::Everyday, seed);
-        (scene.options.rtol, scene.options.atol, scene.options.stick_angle) = (1e-11, 1e-14, stick_angle);
-        simulate(&scene).expect("a run")
-    };
-    let finest: Vec<Response> = (0..400).map(|seed| at(seed, 1e-14)).collect();
-    // The largest differences that nine in ten runs may have, 99 in a hundred, and all: three to fourteen times those found.
-    let mut largest = Vec::new();
-    for (stick_angle, bars) in [
-        (1e-7, [2e-7, 1e-4, 3e-3]),
-        (1e-9, [1e-9, 6e-5, 1e-3]),
-        (1e-11, [3e-11, 3e-6, 3e-5]),
-        (1e-13, [1e-13, 6e-8, 2e-6]),
-    ] {
-        let (mut off, mut impacts) = (Vec::new(), 0);
-        for (seed, finest) in finest.iter().enumerate() {
-            let own = at(seed as u64, stick_angle);
-            impacts += own.impacts;
-            off.push(difference(&own, finest));
-        }
-        off.sort_by(f64::total_cmp);
-        let quantiles = [0.9, 0.99, 1.0].map(|share| off[((off.len() - 1) as f64 * share) as usize]);
-        let [most, nearly_all, all] = quantiles;
-        println!("| {stick_angle:e} | {most:.0e} | {nearly_all:.0e} | {all:.0e} | {impacts} |");
-        assert!(quantiles.iter().zip(bars).all(|(off, bar)| *off < bar), "{stick_angle:e}: {quantiles:?}");
-        largest.push(all);
-    }
-    // Six powers of ten of the height: three of its root, to within the chance of one run.
-    let order = (largest[0] / largest[3]).log10() / 6.0;
-    assert!((0.4..0.65).contains(&order), "order {order}");
 }
 
 /// The seeds of the long form: `ROCKING_SCENES`, a number or `first..end`; 100,000 otherwise.

@@ -56,7 +56,9 @@ impl fmt::Display for GenerateError {
                 write!(f, "a column of {blocks} block(s) is not baked: from 1 to {LARGEST_BAKED} are; use `generate`")
             }
             GenerateError::BakedValue { name, value } => {
-                write!(f, "{name} is {value:?}: give a number from 1e-30 to 1e30, or for an inertia from 1e-90 to 1e90")
+                let range = |range: RangeInclusive<f64>| format!("from {:e} to {:e}", range.start(), range.end());
+                let [sizes, inertias] = [BAKED_SIZES, BAKED_INERTIAS].map(range);
+                write!(f, "{name} is {value:?}: give a number {sizes}, or for an inertia {inertias}")
             }
             GenerateError::Programs { found, expected } => write!(
                 f,

@@ -41,7 +41,7 @@ pub(crate) fn find_at_rest<S>(
     }
 }
 
-/// Reports the time at which a column at rest comes to a segment of this number, of a few of them.
+/// Reports the time at which a column at rest comes to the segment of this number, once in [`SEGMENTS_BETWEEN_REPORTS`] segments.
 ///
 /// # Errors
 /// [`SolveError::Cancelled`]

@@ -85,6 +85,7 @@ pub(super) fn check_uplift(table: &Table, column: &Column) -> Result<(), Wrong> 
     }
 }
 
+/// The error that a size is given in units of what opens the base, and nothing does: the column does not stand by itself.
 fn no_uplift(table: &Table, key: &str) -> Wrong {
     let problem = "the column does not stand by itself: no acceleration of the ground opens its base";
     table.wrong(key, problem.into(), "give the size in m/s² or g, or other slides")

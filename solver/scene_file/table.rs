@@ -370,7 +370,7 @@ impl Table {
     pub fn whole_up_to(&mut self, key: &'static str, least: u32, most: f64) -> Result<Option<u64>, Wrong> {
         match self.number(key)? {
             Some(value) if value.fract() != 0.0 || value < f64::from(least) || value > most => {
-                // The bound of doubles is told to numbers beyond it alone: the caller may have a narrower one.
+                // The remedy names the bound of doubles only to a number beyond it: the caller may have a lower bound.
                 let end = if most < LARGEST_WHOLE || value > most { format!("to {most:e}") } else { "on".into() };
                 let remedy = format!("give a whole number from {least} {end}");
                 Err(self.wrong(key, format!("{value} is out of range"), &remedy))

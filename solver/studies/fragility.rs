@@ -278,6 +278,24 @@ mod tests {
         Fragility::of(runs, LimitState::Overturned, &FragilityOptions::default())
     }
 
+    /// Tables and JSON have one name for each kind.
+    #[test]
+    fn kinds_of_fits_have_their_names() {
+        let fits = [
+            Fit::Lognormal { median: 1.0, dispersion: 0.4, log_likelihood: -1.0 },
+            Fit::NoRuns,
+            Fit::OneRecord,
+            Fit::Never { up_to: 1.0 },
+            Fit::Always { from: 1.0 },
+            Fit::Step { never_to: 1.0, always_from: 2.0 },
+            Fit::Falling,
+        ];
+        assert_eq!(fits.map(|fit| fit.name()), Fit::NAMES);
+        for fit in fits {
+            assert_eq!(serde_json::to_value(fit).expect("JSON")["kind"], fit.name());
+        }
+    }
+
     #[test]
     fn what_no_curve_fits_is_said() {
         assert_eq!(overturning(&[]).fit, Fit::NoRuns);
