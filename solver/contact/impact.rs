@@ -3,7 +3,7 @@
 use super::assert_of;
 use super::decision::Decision;
 use super::restitution::{Restitution, rebounded};
-use super::search::{Candidate, ContactProblem, Found};
+use super::search::{ContactProblem, Found};
 use super::state_at_event::{
     Answer, Mechanism, ROUNDING, SingularMass, StateAtEvent, accelerate, chosen, may_choose, project, sizes,
 };
@@ -77,12 +77,12 @@ fn impact_at<S: Size>(
     };
     let mut candidate = problem.candidate(guess)?;
     let is_impact_admissible = problem.solve(&mut candidate)? == Found::Admissible;
-    let Candidate { mut mechanism, answer: plastic } = candidate;
+    let (mechanism, plastic) = (&mut candidate.mechanism, candidate.answer);
 
     // What strikes rebounds; an interface that only touches, moving apart, does not.
     let is_striking = |&i: &usize| f64::from(states[i].sign()) * relative(omega, i) < 0.0;
     let striking = closing.iter().copied().filter(is_striking);
-    let rebound = rebounded(&mechanism, &plastic, striking, &free, law.kappa, energy_before);
+    let rebound = rebounded(mechanism, &plastic, striking, &free, law.kappa, energy_before);
     let is_without_restitution = matches!(rebound, Restitution::LeftOut);
     let (mut rates, rebounds) = match rebound {
         Restitution::Rates(rates) => (rates, true),
@@ -94,7 +94,7 @@ fn impact_at<S: Size>(
         let change = at_event.velocities(posture, &rates).less(&before);
         posture.resultants(&change.linear, &change.angular)
     });
-    let forced = settle(at_event, &mut mechanism, &mut rates, &free, ground, law.stick_angle)?;
+    candidate.answer = settle(at_event, mechanism, &mut rates, &free, ground, law.stick_angle)?;
     let mut energy_lost = 0.0;
     if law.is_recorded {
         let posture = &mechanism.posture;
@@ -111,7 +111,6 @@ fn impact_at<S: Size>(
         answer: forces,
         given: &|_| [ground.x.abs() + ground.gravity.abs(), 0.0],
     };
-    let mut candidate = Candidate { mechanism, answer: forced };
     let is_motion_admissible = problem.solve(&mut candidate)? == Found::Admissible;
     let (pattern, omega) = (Pattern::from_states(&candidate.mechanism.states), PerBlock::from_slice(&rates));
     Ok(Decision {

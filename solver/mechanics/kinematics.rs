@@ -207,9 +207,8 @@ impl<'a, S: Size> Posture<'a, S> {
                     let (r, q) = (levers[row], levers[column]);
                     matrix[row * width + column] += block.mass * (r[0] * q[0] + r[1] * q[1]);
                 }
-            }
-            if own > 0 {
-                matrix[(own - 1) * (width + 1)] += block.inertia;
+                let diagonal = &mut matrix[row * (width + 1)];
+                *diagonal = if row + 1 == own { *diagonal + block.inertia } else { *diagonal };
             }
         }
         for row in 0..width {
@@ -283,10 +282,8 @@ impl<'a, S: Size> Posture<'a, S> {
             let (levers, own) = (self.levers(index), self.link[index]);
             for row in 0..self.size.links(own) {
                 let r = levers[row];
-                result[row] += block.mass * (r[1] * linear[index][0] - r[0] * linear[index][1]);
-            }
-            if own > 0 {
-                result[own - 1] += block.inertia * angular[index];
+                let pushed = result[row] + block.mass * (r[1] * linear[index][0] - r[0] * linear[index][1]);
+                result[row] = if row + 1 == own { pushed + block.inertia * angular[index] } else { pushed };
             }
         }
         result
@@ -374,16 +371,18 @@ impl<S: Size> Factorised<S> {
         }
         let width = self.width;
         for row in 0..width {
+            let mut left = right[row];
             for inner in 0..row {
-                right[row] -= self.lower[row * width + inner] * right[inner];
+                left -= self.lower[row * width + inner] * right[inner];
             }
-            right[row] *= self.lower[row * (width + 1)];
+            right[row] = left * self.lower[row * (width + 1)];
         }
         for row in (0..width).rev() {
+            let mut left = right[row];
             for below in row + 1..width {
-                right[row] -= self.lower[below * width + row] * right[below];
+                left -= self.lower[below * width + row] * right[below];
             }
-            right[row] *= self.lower[row * (width + 1)];
+            right[row] = left * self.lower[row * (width + 1)];
         }
     }
 
