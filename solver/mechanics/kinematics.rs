@@ -372,15 +372,15 @@ impl<S: Size> Factorised<S> {
         let width = self.width;
         for row in 0..width {
             let mut left = right[row];
-            for inner in 0..row {
-                left -= self.lower[row * width + inner] * right[inner];
+            for (inner, known) in right[..row].iter().enumerate() {
+                left -= self.lower[row * width + inner] * known;
             }
             right[row] = left * self.lower[row * (width + 1)];
         }
         for row in (0..width).rev() {
             let mut left = right[row];
-            for below in row + 1..width {
-                left -= self.lower[below * width + row] * right[below];
+            for (below, known) in right[..width].iter().enumerate().skip(row + 1) {
+                left -= self.lower[below * width + row] * known;
             }
             right[row] = left * self.lower[row * (width + 1)];
         }

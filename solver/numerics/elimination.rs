@@ -114,13 +114,14 @@ impl Factors {
             loads.swap(column, *pivot);
         }
         for row in 1..size {
-            for column in 0..row {
-                loads[row] -= a[row * size + column] * loads[column];
-            }
+            let (known, left) = loads.split_at_mut(row);
+            let factors = &a[row * size..][..row];
+            left[0] = factors.iter().zip(&*known).fold(left[0], |left, (factor, known)| left - factor * known);
         }
         for row in (0..size).rev() {
-            let known: f64 = (row + 1..size).map(|k| a[row * size + k] * loads[k]).sum();
-            loads[row] = (loads[row] - known) / a[row * size + row];
+            let factors = &a[row * size..][..size];
+            let known: f64 = factors[row + 1..].iter().zip(&loads[row + 1..size]).map(|(factor, x)| factor * x).sum();
+            loads[row] = (loads[row] - known) / factors[row];
         }
     }
 }
