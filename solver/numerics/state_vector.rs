@@ -11,6 +11,10 @@ pub trait StateVector: Clone + Send + Sync {
     fn as_mut_slice(&mut self) -> &mut [f64];
     /// A list with the entry `fill` for each component.
     fn each<T: Clone + Send + Sync>(&self, fill: T) -> Self::Of<T>;
+    /// Replaces the components by `Σ weight · vector`, summed vector by vector.
+    fn set_to_sum<'v>(&mut self, terms: impl Iterator<Item = (f64, &'v Self)>)
+    where
+        Self: 'v;
 }
 
 impl<const D: usize> StateVector for [f64; D] {
@@ -19,6 +23,14 @@ impl<const D: usize> StateVector for [f64; D] {
     #[inline(always)]
     fn each<T: Clone + Send + Sync>(&self, fill: T) -> [T; D] {
         std::array::from_fn(|_| fill.clone())
+    }
+
+    // The sum is a value of its own: it stays in registers.
+    #[inline(always)]
+    fn set_to_sum<'v>(&mut self, terms: impl Iterator<Item = (f64, &'v [f64; D])>) {
+        let mut sum = [0.0; D];
+        terms.for_each(|(weight, vector)| sum.iter_mut().zip(vector).for_each(|(sum, x)| *sum += weight * x));
+        *self = sum;
     }
 
     #[inline(always)]
@@ -37,6 +49,11 @@ impl StateVector for Vec<f64> {
 
     fn each<T: Clone + Send + Sync>(&self, fill: T) -> Vec<T> {
         vec![fill; self.len()]
+    }
+
+    fn set_to_sum<'v>(&mut self, terms: impl Iterator<Item = (f64, &'v Vec<f64>)>) {
+        self.fill(0.0);
+        terms.for_each(|(weight, vector)| self.iter_mut().zip(vector).for_each(|(sum, x)| *sum += weight * x));
     }
 
     fn as_slice(&self) -> &[f64] {

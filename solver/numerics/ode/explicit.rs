@@ -178,16 +178,10 @@ impl<V: StateVector> Explicit<V> {
     }
 }
 
-/// Writes `Σ weight · k[stage]` into `out`, term by term for all components at once.
+/// Writes `Σ weight · k[stage]` into `out`.
 #[inline(always)]
 fn weighted_sum<V: StateVector>(k: &[V; MAX_STAGES], terms: &[Term], out: &mut V) {
-    let out = out.as_mut_slice();
-    out.fill(0.0);
-    for &(stage, weight) in terms {
-        for (out, slope) in out.iter_mut().zip(k[stage].as_slice()) {
-            *out += weight * slope;
-        }
-    }
+    out.set_to_sum(terms.iter().map(|&(stage, weight)| (weight, &k[stage])));
 }
 
 /// Writes `x + h Σ weight · k[stage]` into `out`.
