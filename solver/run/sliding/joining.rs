@@ -6,7 +6,7 @@ use super::transition::PendingTransition;
 use crate::friction::chain::{Chain, Rates};
 use crate::friction::contact_problem::Touch;
 use crate::friction::gaps::{self, Corner};
-use crate::friction::joint::{Configuration, Joint};
+use crate::friction::joint::{Configuration, Face, Joint, Slip, face};
 use crate::friction::rows::Rows;
 use crate::mechanics::kinematics::{lower, relative};
 use crate::numerics::per_block::PerBlock;
@@ -74,7 +74,10 @@ impl PendingTransition<'_> {
             let chain = Chain::new(self.column(), &held);
             let Some(answer) = Rows::new(&chain, &held.joints, &none, &none).impact(&before) else { return };
             let driven_in = |interface| self.driven_in(&chain, &held, [&rates, &answer.motion], interface);
-            let Some((interface, joint, slide)) = (0..joints.len()).find_map(driven_in) else {
+            let turned_back = |interface| self.turned_back(&held, &answer.motion, interface);
+            let changing =
+                (0..joints.len()).find_map(|interface| driven_in(interface).or_else(|| turned_back(interface)));
+            let Some((interface, joint, slide)) = changing else {
                 answer.motion.give(&mut held);
                 break;
             };
@@ -83,6 +86,16 @@ impl PendingTransition<'_> {
         let joints = held.joints.clone();
         self.now = held;
         self.adopt(&joints);
+    }
+
+    /// Coinciding corners that would slide against the direction in which they are held, with the state that holds them: they stick. To the other side another
+    /// face carries them, and a slide along it is another velocity.
+    fn turned_back(&self, held: &Configuration, after: &Rates, interface: usize) -> Option<(usize, Joint, f64)> {
+        let (joint, slide) = (held.joints[interface], held.slide[interface]);
+        let Joint::Corner(side, _, Slip::Slides(direction)) = joint else { return None };
+        let is_back = f64::from(direction) * after.slide[interface] < 0.0;
+        let coincide = face(self.column(), interface, side, slide) == Face::Both;
+        (is_back && coincide).then_some((interface, Joint::Corner(side, Face::Both, Slip::Sticks), slide))
     }
 
     /// An interface that touches and that a jump of velocities from `before` to `after` would drive in, with the state that holds it and its slide
