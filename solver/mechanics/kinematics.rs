@@ -207,6 +207,7 @@ impl<'a, S: Size> Posture<'a, S> {
                     let (r, q) = (levers[row], levers[column]);
                     matrix[row * width + column] += block.mass * (r[0] * q[0] + r[1] * q[1]);
                 }
+                // Chosen by a condition: an entry written by an index would have to leave its register.
                 let diagonal = &mut matrix[row * (width + 1)];
                 *diagonal = if row + 1 == own { *diagonal + block.inertia } else { *diagonal };
             }
@@ -283,6 +284,7 @@ impl<'a, S: Size> Posture<'a, S> {
             for row in 0..self.size.links(own) {
                 let r = levers[row];
                 let pushed = result[row] + block.mass * (r[1] * linear[index][0] - r[0] * linear[index][1]);
+                // Chosen by a condition, as in the mass matrix.
                 result[row] = if row + 1 == own { pushed + block.inertia * angular[index] } else { pushed };
             }
         }
