@@ -15,7 +15,6 @@ use super::joint::{Configuration, Face, Joint};
 use crate::column::{Block, Column};
 use crate::mechanics::kinematics::{Vec2, lower};
 use crate::numerics::per_block::PerBlock;
-use std::ops::Range;
 
 /// Velocities of the blocks. Where accelerations are asked for, these stand in the same places `[m/s²]`, `[rad/s²]`.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -274,23 +273,6 @@ impl<'a> Chain<'a> {
             below = plus(foot, swept(rates.omega[i], self.blocks[i].to_top));
         }
         BlockMotion { linear, angular: rates.omega.clone() }
-    }
-
-    /// Writes the motion of each block, `[x, y, angle]`, for a unit rate of the common angle of the blocks in `range`. Entries below `range` stay as they are.
-    pub fn turned(&self, range: Range<usize>, motion: &mut [[f64; 3]]) {
-        let mut below = [0.0, 0.0];
-        for i in range.clone() {
-            let Placed { link, to_centroid, to_top, .. } = &self.blocks[i];
-            let foot = if i == range.start { link.on_upper } else { plus(link.on_lower, link.on_upper) };
-            let foot = plus(below, swept(1.0, foot));
-            let [x, y] = plus(foot, swept(1.0, *to_centroid));
-            motion[i] = [x, y, 1.0];
-            below = plus(foot, swept(1.0, *to_top));
-        }
-        if let Some(next) = self.blocks.get(range.end) {
-            let [x, y] = plus(below, swept(1.0, next.link.on_lower));
-            motion[range.end..].fill([x, y, 0.0]);
-        }
     }
 
     /// Accelerations of the centroids `[m/s²]` that the rates cause: centripetal ones and those of slides along turning faces.

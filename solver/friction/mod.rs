@@ -3,12 +3,13 @@
 //! A contact of the model without sliding transmits whatever force holds its blocks together. Here the tangential force obeys Coulomb's
 //! law and the normal force is a pressure, so that an interface has ten states instead of three ([`joint`]). The coordinates keep the contacts by
 //! themselves: an angle for each link, a slide for each interface that slides, two translations for each free interface ([`chain`]). The equations
-//! of motion exist in three forms: rows of d'Alembert's principle ([`rows`]), generated programs where the build has them ([`generated`]), and Taylor
+//! of motion exist in three forms: rows of d'Alembert's principle ([`rows`]), solved block by block ([`articulated`]), generated programs where the build has them ([`generated`]), and Taylor
 //! series with a separate derivation, on which runs step ([`series`]). The states that follow an event are searched for among the admissible ones
 //! ([`search`]). A state ends at the first zero of a guard ([`guards`]); on a series, guards are polynomials ([`guard_series`]).
 //!
 //! Time does not pass here: `run/` integrates.
 
+mod articulated;
 pub mod chain;
 mod complementarity;
 pub mod contact_problem;

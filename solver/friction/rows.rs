@@ -10,16 +10,12 @@
 //! No normal force is solved for, and the matrix is not symmetric. In a smooth motion `A` are accelerations, with gravity and the ground's added. In
 //! an impact `A` are the jumps of velocity, and forces are impulses.
 
+use super::articulated::{Articulation, Planar};
 use super::chain::{BlockMotion, Chain, Rates};
 use super::joint::{Configuration, Joint, Slip};
 use crate::mechanics::dynamics::{ContactForce, Ground};
 use crate::mechanics::kinematics::Vec2;
-use crate::numerics::elimination::Factors;
 use crate::numerics::per_block::PerBlock;
-use smallvec::SmallVec;
-
-/// Number of coordinates up to which a solution allocates nothing: three blocks have at most nine.
-const USUAL_SIZE: usize = 9;
 
 /// A coordinate of a configuration.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,14 +35,6 @@ impl Coordinate {
             Coordinate::Angle(blocks) => [configuration.theta[blocks.start], configuration.omega[blocks.start]],
             Coordinate::Slide(i) => [configuration.slide[*i], configuration.slide_rate[*i]],
             Coordinate::Apart(i, axis) => [configuration.apart[*i][*axis], configuration.apart_rate[*i][*axis]],
-        }
-    }
-
-    /// Lowest block (from zero) that the coordinate moves.
-    fn lowest_block(&self) -> usize {
-        match self {
-            Coordinate::Angle(blocks) => blocks.start,
-            Coordinate::Slide(interface) | Coordinate::Apart(interface, _) => *interface,
         }
     }
 
@@ -109,20 +97,12 @@ impl Answer {
     }
 }
 
-/// A motion of a block: `[x, y]` of the centroid, and its angle.
-type Planar = [f64; 3];
-
 /// The rows of a configuration.
 #[derive(Debug)]
 pub struct Rows<'c, 'a> {
     chain: &'c Chain<'a>,
-    coordinates: Vec<Coordinate>,
-    /// Motion of each block for a unit rate of each coordinate, block by block: of all coordinates the horizontal part, then the vertical one, then the
-    /// rotation.
-    motions: Vec<f64>,
-    /// The virtual motion of each block along which each coordinate is tested, coordinate by coordinate: along the lifted face for a slide, the
-    /// coordinate's own motion otherwise.
-    tests: Vec<Planar>,
+    /// `None` if the rows are singular.
+    solved: Option<Articulation>,
     /// Centre or point of each contact `[m]`.
     points: PerBlock<Vec2>,
 }
@@ -131,73 +111,19 @@ impl<'c, 'a> Rows<'c, 'a> {
     /// The rows of these states with these coefficients of kinetic friction; `centres` are the centres of closed contacts on their lower
     /// faces `[m]`.
     pub fn new(chain: &'c Chain<'a>, joints: &[Joint], kinetic: &[f64], centres: &[f64]) -> Rows<'c, 'a> {
-        let (coordinates, blocks) = (coordinates(joints), chain.len());
-        let size = coordinates.len();
-        let (mut motions, mut tests) = (vec![0.0; 3 * size * blocks], vec![[0.0; 3]; size * blocks]);
-        for (place, (coordinate, own)) in coordinates.iter().zip(tests.chunks_exact_mut(blocks)).enumerate() {
-            match coordinate {
-                Coordinate::Angle(range) => chain.turned(range.clone(), own),
-                Coordinate::Slide(interface) => {
-                    let [along, _] = chain.axes(*interface);
-                    own[*interface..].fill([along[0], along[1], 0.0]);
-                }
-                Coordinate::Apart(interface, 0) => own[*interface..].fill([1.0, 0.0, 0.0]),
-                Coordinate::Apart(interface, _) => own[*interface..].fill([0.0, 1.0, 0.0]),
-            }
-            for (motion, own) in motions.chunks_exact_mut(3 * size).zip(own.iter()).skip(coordinate.lowest_block()) {
-                (0..3).for_each(|part| motion[part * size + place] = own[part]);
-            }
-            if let Coordinate::Slide(interface) = coordinate {
-                let lift = joints[*interface].slip().map_or(0.0, Slip::sign) * kinetic[*interface];
-                let [along, across] = chain.axes(*interface);
-                own[*interface..].fill([along[0] + lift * across[0], along[1] + lift * across[1], 0.0]);
-            }
-        }
-        Rows { chain, coordinates, motions, tests, points: points(chain, joints, centres) }
+        let solved = Articulation::new(chain, joints, kinetic);
+        Rows { chain, solved, points: points(chain, joints, centres) }
     }
 
     /// Rates of the coordinates for which each row has the same work as for the blocks' motions `load`; `None` if the rows are singular.
     fn solve(&self, load: impl Fn(usize) -> Planar) -> Option<Rates> {
-        let blocks = self.chain.len();
-        let factors = self.factors()?;
-        let work = |(coordinate, test): (&Coordinate, &[Planar])| {
-            let moved = self.chain.column().blocks().iter().zip(test).enumerate().skip(coordinate.lowest_block());
-            moved.fold(0.0, |sum, (j, (block, d))| {
-                let a = load(j);
-                sum + block.mass * (a[0] * d[0] + a[1] * d[1]) + block.inertia * a[2] * d[2]
-            })
-        };
-        let values = self.coordinates.iter().zip(self.tests.chunks_exact(blocks)).map(work);
-        let mut values: SmallVec<[f64; USUAL_SIZE]> = values.collect();
-        factors.solve(&mut values);
-        values.iter().all(|x| x.is_finite()).then(|| by_block(&self.coordinates, &values, blocks))
-    }
-
-    /// The factorised matrix of the rows; `None` if they are singular. An entry is the work `Σ m_j a_j · δr_j + I_j α_j δθ_j` of a unit rate of the
-    /// coordinate of its column on the virtual motion of its row.
-    fn factors(&self) -> Option<Factors> {
-        let (size, blocks) = (self.coordinates.len(), self.chain.column().blocks());
-        let mut factors = Factors::with_size(size);
-        // Coordinates stand in the order of the lowest blocks that they move.
-        let moving = |block: usize| self.coordinates.partition_point(|coordinate| coordinate.lowest_block() <= block);
-        let moving: PerBlock<usize> = (0..blocks.len()).map(moving).collect();
-        for (row, (coordinate, test)) in self.coordinates.iter().zip(self.tests.chunks_exact(blocks.len())).enumerate()
-        {
-            for j in coordinate.lowest_block()..blocks.len() {
-                let (block, d, entries) = (&blocks[j], test[j], &mut factors.row(row)[..moving[j]]);
-                let parts = &self.motions[3 * size * j..][..3 * size];
-                let (x, y, turn) = (&parts[..size], &parts[size..2 * size], &parts[2 * size..]);
-                for (((entry, x), y), turn) in entries.iter_mut().zip(x).zip(y).zip(turn) {
-                    *entry = *entry + block.mass * (x * d[0] + y * d[1]) + block.inertia * turn * d[2];
-                }
-            }
-        }
-        factors.factorise().map(|()| factors)
+        let load: PerBlock<Planar> = (0..self.chain.len()).map(load).collect();
+        self.solved.as_ref()?.solve(&load)
     }
 
     /// Whether the determinant of the rows is above zero; `None` if they are singular. Where nothing slides against friction, it always is.
     pub fn is_positive(&self) -> Option<bool> {
-        self.factors().map(|factors| factors.is_positive())
+        self.solved.as_ref().map(Articulation::is_positive)
     }
 
     /// The accelerations at these rates on a moving ground.
@@ -269,18 +195,17 @@ fn accelerated(chain: &Chain, points: &[Vec2], accelerations: Rates, imposed: &[
 
 fn answer(chain: &Chain, points: &[Vec2], motion: Rates, change: BlockMotion) -> Answer {
     let blocks = chain.column().blocks();
-    let contact = |interface: usize| {
-        let ([along, across], point) = (chain.axes(interface), points[interface]);
-        let (mut force, mut moment) = ([0.0, 0.0], 0.0);
-        for (j, block) in blocks.iter().enumerate().skip(interface) {
-            let load = change.linear[j].map(|a| block.mass * a);
-            let r = [chain.centroid(j)[0] - point[0], chain.centroid(j)[1] - point[1]];
-            force = [force[0] + load[0], force[1] + load[1]];
-            moment += block.inertia * change.angular[j] + r[1] * load[0] - r[0] * load[1];
-        }
+    let mut contacts = PerBlock::filled(ContactForce::default(), blocks.len());
+    // Force and moment that the blocks from here on up take, about the point of the contact.
+    let (mut force, mut moment, mut above) = ([0.0, 0.0], 0.0, [0.0, 0.0]);
+    for (i, block) in blocks.iter().enumerate().rev() {
+        let ([along, across], point) = (chain.axes(i), points[i]);
+        let load = change.linear[i].map(|a| block.mass * a);
+        let about = |at: Vec2, force: Vec2| (at[1] - point[1]) * force[0] - (at[0] - point[0]) * force[1];
+        moment += about(above, force) + about(chain.centroid(i), load) + block.inertia * change.angular[i];
+        (force, above) = ([force[0] + load[0], force[1] + load[1]], point);
         let dot = |axis: Vec2| axis[0] * force[0] + axis[1] * force[1];
-        ContactForce { normal: dot(across), tangential: dot(along), moment }
-    };
-    let contacts = (0..blocks.len()).map(contact).collect();
+        contacts[i] = ContactForce { normal: dot(across), tangential: dot(along), moment };
+    }
     Answer { motion, change, contacts }
 }

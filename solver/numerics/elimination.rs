@@ -64,11 +64,6 @@ impl Factors {
         &mut self.entries[row * self.size + column]
     }
 
-    /// A row of the matrix, to be written before it is factorised.
-    pub fn row(&mut self, row: usize) -> &mut [f64] {
-        &mut self.entries[row * self.size..][..self.size]
-    }
-
     /// Factorises the matrix; `None` where a pivot vanishes or is not finite.
     pub fn factorise(&mut self) -> Option<()> {
         let (size, a) = (self.size, self.entries.as_mut_slice());
