@@ -59,10 +59,7 @@ impl Record {
             return Err(RecordError::Silent);
         }
         let own = self.measure(measure, gravity);
-        let factor = match measure {
-            Measure::Arias => (target / own).sqrt(),
-            _ => target / own,
-        };
+        let factor = measure.factor(own, target);
         if !(own > 0.0 && target > 0.0 && factor.is_finite() && factor > 0.0) {
             return Err(RecordError::Unscalable { measure: measure.to_string(), value: own, target });
         }
@@ -76,6 +73,17 @@ impl Record {
     pub fn scaled_to(self, measure: Measure, target: f64, gravity: f64) -> Result<Record, RecordError> {
         let factor = self.factor_to(measure, target, gravity)?;
         self.scaled(factor)
+    }
+}
+
+impl Measure {
+    /// The factor that scales a record with the value `own` of this measure to the value `target`: their ratio; for the Arias intensity, which grows with the
+    /// square of the accelerations, its root.
+    pub fn factor(self, own: f64, target: f64) -> f64 {
+        match self {
+            Measure::Arias => (target / own).sqrt(),
+            _ => target / own,
+        }
     }
 }
 

@@ -679,6 +679,37 @@ fn tables_are_refused_where_they_leave_a_choice_or_are_uneven() {
         error.starts_with("line 101: time 0.395 s is 1.12 intervals") && error.contains("fill in what is missing"),
         "{error}"
     );
+
+    // Times of two decimals at 250 Hz stand in pairs. The last one may be exact, and the interval that they give is then right.
+    for rows in [500, 501] {
+        let text: String = (0..rows).map(|row| format!("{:.2} 1\n", 0.004 * f64::from(row))).collect();
+        let error = refused(text.as_bytes(), &with(0.004)).to_string();
+        assert!(error.contains("leave them out with `lenient`"), "{rows}: {error}");
+        let lenient = TextOptions { lenient: true, ..with(0.004) };
+        let file = RecordFile::read(text.as_bytes(), &lenient).expect("the interval is given");
+        assert!(
+            file.dt == 0.004 && file.warnings.iter().any(|warning| warning.contains("times are left out")),
+            "{rows}"
+        );
+    }
+}
+
+/// Names and values above one column, in any order: what they say of interval and unit counts, and none is a heading.
+#[test]
+fn names_and_values_above_a_column_are_its_header() {
+    let numbers = "0.0\n10.0\n-20.0\n";
+    for header in [
+        "Station: XYZ\nEvent: Somewhere\nDT: 0.01\nUnits: cm/s^2\n",
+        "Units = cm/s2\nDT = 0.01\nStation: XYZ\n",
+        "Station: XYZ\nUnit: cm/s/s\nDT: 0.01 s\n",
+    ] {
+        let file = RecordFile::read(format!("{header}{numbers}").as_bytes(), &options());
+        let file = file.unwrap_or_else(|error| panic!("{header}: {error}"));
+        assert_eq!((file.accel, file.dt), (vec![0.0, 0.1, -0.2], 0.01), "{header}");
+    }
+    // Two values are no pair of a name and a value.
+    let error = refused(format!("DT: 0.01\nUnits: cm/s2; EW\n{numbers}").as_bytes(), &options()).to_string();
+    assert!(error.contains("2 name(s) above 1 column(s)"), "{error}");
 }
 
 #[test]

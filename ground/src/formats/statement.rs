@@ -17,6 +17,17 @@ pub fn names_count(line: &str) -> bool {
         || place_after(line, "NPTS").and_then(leading_number).is_some()
 }
 
+/// Whether a line is a name and a value, `Units: cm/s^2`, `Station = ABC`: the header of many a file of one column. A line with several values is none.
+pub fn is_pair(line: &str) -> bool {
+    let is_sign = |c: char| c == ':' || c == '=';
+    let Some((name, value)) = line.split_once(is_sign) else { return false };
+    let is_word = |c: char| c.is_alphanumeric() || c.is_whitespace() || "_-.".contains(c);
+    !name.trim().is_empty()
+        && name.chars().all(is_word)
+        && !value.trim().is_empty()
+        && !value.contains(|c: char| is_sign(c) || ",;\t".contains(c))
+}
+
 /// The sampling interval that follows `DT` `[s]`: `DT= .01 SEC`, `dt = 10 ms`. Neither a fraction (`1/100`) nor an unknown unit of time gives one.
 pub fn interval(line: &str) -> Option<f64> {
     let rest = place_after(line, "DT")?;

@@ -51,8 +51,12 @@ impl Rows {
             .filter(|(_, line)| words(line).next().is_some())
             .collect();
         let first = first_row(&body)?;
-        // The nearest line of text above the numbers has the headings; `DT= 0.01` may stand between.
-        let last_text = body[..first].iter().rposition(|(_, text)| statement::interval(text).is_none());
+        // The nearest line of text above the numbers has the headings; `DT= 0.01` may stand between, and `Units: cm/s2` unless it has a name for each column.
+        let columns = body.get(first).map_or(0, |(_, row)| words(row).count());
+        let states = |text: &str| {
+            statement::interval(text).is_some() || statement::is_pair(text) && headings(text, None).len() != columns
+        };
+        let last_text = body[..first].iter().rposition(|(_, text)| !states(text));
         let above = last_text.and_then(|place| Some(body[place.checked_sub(1)?].1));
         let headings = last_text.map(|place| (body[place].0, headings(body[place].1, above)));
         let has_all = |(_, names): &(usize, Vec<Heading>)| names.iter().any(|heading| is_all(&heading.name));

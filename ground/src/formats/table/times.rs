@@ -112,7 +112,7 @@ fn interval(
         return match odd {
             None => Ok(own),
             // The interval is right, and some times are not.
-            Some(row) if is_mean => Err(uneven(rows, row, at)),
+            Some(row) if is_mean && most_steps_are(rows, own, time, second) => Err(uneven(rows, row, at)),
             // Without `dt` the times are refused as well: they have too few digits.
             Some(row)
                 if (own - dt).abs() * last as f64 <= COARSE * own && off_grid(dt, GRID_TOLERANCE * dt).is_some() =>
