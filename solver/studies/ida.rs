@@ -7,7 +7,8 @@
 
 use crate::intensity::Intensity;
 use crate::scene::{Scene, Wanted};
-use rocking_ground::{Excitation, Measure, Motion, Record, RecordError};
+use crate::studies::levels::is_same_level;
+use rocking_ground::{Excitation, Motion, Record, RecordError};
 use std::collections::HashSet;
 
 /// Components of one record.
@@ -30,8 +31,9 @@ pub struct Ida {
     levels: Vec<f64>,
     free_swing: f64,
     is_followed: bool,
-    /// Factor that scales each record to a level of one. For other levels it grows in proportion, for the Arias intensity with the square root.
-    factors: Vec<f64>,
+    /// Size of each record in the measure, in SI units, and that of a level of one.
+    sizes: Vec<f64>,
+    unit: f64,
 }
 
 /// Why there is no study.
@@ -133,22 +135,23 @@ impl Ida {
         if levels.is_empty() {
             return Err(IdaError::NoLevels);
         }
-        let mut known = HashSet::new();
-        for level in levels.iter().copied() {
+        for (place, level) in levels.iter().copied().enumerate() {
             if !(level.is_finite() && level > 0.0) {
                 return Err(IdaError::Level { level, problem: "it must be a finite number above zero" });
             }
-            if !known.insert(level.to_bits()) {
+            if levels[..place].iter().any(|other| is_same_level(other.min(level), other.max(level))) {
                 return Err(IdaError::Level { level, problem: "it is there twice; remove one of the two" });
             }
         }
         let unit = intensity.unit_size(&scene.column).ok_or(IdaError::NoUplift(intensity))?;
-        let factor = |record: &StudyRecord| {
-            let factor = record.horizontal.factor_to(intensity.measure, unit, scene.column.gravity());
-            factor.map_err(|error| IdaError::Record { name: record.name.clone(), error })
+        let size = |record: &StudyRecord| {
+            let (measure, gravity) = (intensity.measure, scene.column.gravity());
+            let factor = record.horizontal.factor_to(measure, unit, gravity);
+            factor.map_err(|error| IdaError::Record { name: record.name.clone(), error })?;
+            Ok(record.horizontal.measure(measure, gravity))
         };
-        let factors = records.iter().map(factor).collect::<Result<_, _>>()?;
-        Ok(Ida { scene, records, intensity, levels, free_swing: DEFAULT_FREE_SWING, is_followed: true, factors })
+        let sizes = records.iter().map(size).collect::<Result<_, _>>()?;
+        Ok(Ida { scene, records, intensity, levels, free_swing: DEFAULT_FREE_SWING, is_followed: true, sizes, unit })
     }
 
     /// The study with another time after each record `[s]`; default 10.
@@ -231,8 +234,8 @@ impl Ida {
     /// If there are no more than `index` runs.
     pub fn point(&self, index: usize) -> IdaPoint {
         let (record, level) = (index / self.levels.len(), self.levels[index % self.levels.len()]);
-        let grown = if self.intensity.measure == Measure::Arias { level.sqrt() } else { level };
-        IdaPoint { record, level, scale: self.factors[record] * grown }
+        let scale = self.intensity.measure.factor(self.sizes[record], level * self.unit);
+        IdaPoint { record, level, scale }
     }
 
     /// Scene of a run: records scaled, end and rows set.

@@ -13,6 +13,7 @@ mod fragility;
 mod gap;
 mod ida;
 mod ida_runs;
+mod levels;
 mod observation;
 pub mod probit;
 mod proportion;
@@ -24,6 +25,7 @@ pub use fragility::{
 };
 pub use ida::{Ida, IdaError, IdaPoint, StudyRecord};
 pub use ida_runs::{IdaOutcome, IdaRun, RunError};
+pub use levels::is_same_level;
 pub use observation::{
     Cells, DEFAULT_STATES, LimitState, NoLimitState, Observation, WrongCell, is_of_one_record, record_columns,
 };

@@ -1,5 +1,6 @@
 //! Stripes: all runs at one level of intensity, and fractiles of their response.
 
+use super::levels::{distinct_levels, place_of_level};
 use super::observation::Observation;
 use crate::response::Fate;
 
@@ -32,6 +33,8 @@ impl Stripe {
 
 /// The stripes of runs, from the lowest level up.
 pub fn stripes(runs: &[Observation]) -> Vec<Stripe> {
+    let levels = distinct_levels(runs.iter().map(|run| run.level));
+    let place = |run: &Observation| place_of_level(&levels, run.level);
     let mut sorted: Vec<&Observation> = runs.iter().collect();
     sorted.sort_by(|a, b| a.level.total_cmp(&b.level));
     let stripe = |runs: &[&Observation]| {
@@ -47,7 +50,7 @@ pub fn stripes(runs: &[Observation]) -> Vec<Stripe> {
             fractiles: demands.map(|demands| FRACTILES.map(|share| fractile(&demands, share))),
         }
     };
-    sorted.chunk_by(|a, b| a.level == b.level).map(stripe).collect()
+    sorted.chunk_by(|a, b| place(a) == place(b)).map(stripe).collect()
 }
 
 /// Smallest of the values such that at least `share` of all values do not exceed it: the inverse of the empirical distribution.

@@ -8,7 +8,7 @@ use super::spectrum::LEAST_RECORDS;
 use super::style::{self, Stroke};
 use crate::number::counted;
 use rocking::Fate;
-use rocking::studies::{FRACTILES, Observation, Stripe};
+use rocking::studies::{FRACTILES, Observation, Stripe, is_same_level};
 use std::collections::BTreeMap;
 
 /// Lengths `[px]`.
@@ -82,7 +82,7 @@ type Records<'r> = BTreeMap<&'r str, Vec<&'r Observation>>;
 fn curves(sheet: &mut Sheet, panel: &Panel, records: &Records, stripes: &[Stripe], fractile_lines: &[Stroke]) {
     // Without ground motion there is no response. If no column stands at the lowest level, nothing is known of what lies between.
     let lowest = stripes.first().map(|stripe| stripe.level);
-    let begins = |run: &&Observation| Some(run.level) == lowest && is_standing(run);
+    let begins = |run: &&Observation| lowest.is_some_and(|lowest| is_same_level(lowest, run.level)) && is_standing(run);
     let begins = records.values().flatten().any(begins).then_some((0.0, 0.0));
     for runs in records.values() {
         let points: Vec<_> = runs.iter().map(|run| (run.demand(), run.level)).collect();

@@ -2,6 +2,7 @@
 
 use super::options::FragilityOptions;
 use crate::numerics::random::generator;
+use crate::studies::levels::{distinct_levels, place_of_level};
 use crate::studies::observation::{LimitState, Observation};
 use crate::studies::probit::{Maximum, Probit, Trial, fit};
 use rand_pcg::rand_core::Rng;
@@ -70,9 +71,7 @@ pub struct Table {
 impl Table {
     pub fn of(runs: &[Observation], state: LimitState) -> Table {
         let runs: Vec<&Observation> = runs.iter().filter(|run| state.concerns(run)).collect();
-        let mut levels: Vec<f64> = runs.iter().map(|run| run.level).collect();
-        levels.sort_by(f64::total_cmp);
-        levels.dedup();
+        let levels = distinct_levels(runs.iter().map(|run| run.level));
         let mut records: Vec<String> = runs.iter().map(|run| run.record.clone()).collect();
         records.sort();
         records.dedup();
@@ -80,7 +79,7 @@ impl Table {
         let is_observed = runs.iter().any(|run| state.is_observed(run));
         let place = |run: &Observation| {
             let record = records.binary_search(&run.record).expect("the names come from these runs");
-            let level = levels.partition_point(|level| *level < run.level);
+            let level = place_of_level(&levels, run.level);
             (record, level, state.is_reached(run).filter(|_| is_observed))
         };
         let runs = runs.into_iter().map(place).collect();
