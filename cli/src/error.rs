@@ -1,5 +1,6 @@
 //! Why a command fails, with the place and the remedy.
 
+use crate::files::folder_of;
 use crate::text::{printable_lines, shown};
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
 use rocking::run_folder::FolderError;
@@ -34,6 +35,12 @@ pub enum Failure {
     /// A file would be written over.
     #[error("{}: there is such a file already; choose another name, or write over it with --force", .0.display())]
     Taken(PathBuf),
+    /// A file of a run is given in place of its folder.
+    #[error("{}: this file belongs to a run; give its folder, {}", .0.display(), folder_of(.0).display())]
+    OfRun(PathBuf),
+    /// A file that is no result would be replaced by one.
+    #[error("{}: there is such a file already, and no command here has written it; choose another name, or remove it", .0.display())]
+    Foreign(PathBuf),
     /// A file or folder cannot be read.
     #[error("{}: {}", .0.display(), .1)]
     Input(PathBuf, String),

@@ -2,8 +2,11 @@
 
 use crate::error::{Failure, at};
 use crate::files::{fill, folder_of, put_in_place};
-use std::io::Write;
+use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
+
+/// Number of bytes by which a file is known as one that a command has written.
+const LONGEST_BEGINNING: u64 = 1000;
 
 /// Writes a file that the user has named, or that belongs to a run.
 pub fn file(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Failure> {
@@ -62,6 +65,19 @@ pub fn check(outputs: &[PathBuf], inputs: &[PathBuf]) -> Result<(), Failure> {
         }
     }
     Ok(())
+}
+
+/// Refuses to replace a file that no command has written, by its first line: a measured record may be a table by its name, too. An empty file may be replaced.
+pub fn check_replaced(path: &Path, is_own: impl FnOnce(&str) -> bool) -> Result<(), Failure> {
+    let Ok(file) = std::fs::File::open(path) else { return Ok(()) };
+    let mut first = Vec::new();
+    let mut beginning = BufReader::new(file).take(LONGEST_BEGINNING);
+    beginning.read_until(b'\n', &mut first).map_err(at(Failure::File, path))?;
+    let first = String::from_utf8_lossy(&first);
+    match first.is_empty() || is_own(first.trim_start_matches('\u{feff}')) {
+        true => Ok(()),
+        false => Err(Failure::Foreign(path.into())),
+    }
 }
 
 /// Refuses outputs of which one cannot be put in place, as a folder or a link that leads nowhere has its name. Their own folder need not be there yet.

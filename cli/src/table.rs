@@ -13,6 +13,7 @@ mod tidy;
 
 use crate::error::Failure;
 use crate::files::{LARGEST_TABLE, check};
+use crate::output::check_replaced as check_of_first_line;
 use column::{OUTCOME, Rows, TRUNCATED, TRUST};
 use csv::StringRecord;
 use delimited::Csv;
@@ -20,7 +21,7 @@ use rocking::Fate;
 use rocking::trust::Degree;
 use std::path::Path;
 use tidy::Tidy;
-pub use tidy::{INDEX, is_nameless, tidied_cell, tidied_heading};
+pub use tidy::{INDEX, is_nameless, is_of_axis, tidied_cell, tidied_heading};
 
 /// The file format of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,6 +69,15 @@ impl Format {
             _ => Ok(Format::Csv),
         }
     }
+}
+
+/// Refuses to replace a file that is no table of this program.
+///
+/// # Errors
+/// [`Failure::Foreign`]; [`Failure::File`] if the file that is there cannot be read.
+pub fn check_replaced(path: &Path) -> Result<(), Failure> {
+    // Spreadsheets may have saved the table with quotes and other separators.
+    check_of_first_line(path, |first| first.starts_with("PAR1") || first.trim_start_matches('"').starts_with(INDEX))
 }
 
 /// Opens a table of either format.

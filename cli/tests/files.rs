@@ -161,3 +161,43 @@ fn names_that_are_no_text_lose_no_run_and_no_table() {
         .write("of.toml", "scene = \"base.toml\"\n[axes]\n\"excitation.horizontal.file\" = { folder = \"records\" }\n");
     folder.refused("sweep of.toml", &["records", "r\u{fffd}.csv is not UTF-8"]);
 }
+
+/// A measured record may be called a table, too: whatever no command has written stays. Results of an earlier command are replaced.
+#[test]
+fn files_that_no_command_has_written_are_not_replaced() {
+    let folder = Folder::with("scene.toml", SCENE);
+    folder.write("base.toml", BASE);
+    folder.write("sweep.toml", SWEEP);
+    folder.copy("scenes/records/synthetic.AT2", "record.csv");
+    folder.copy("scenes/records/synthetic.AT2", "record.AT2");
+    let measured = folder.bytes("record.csv");
+    let there = &["record.csv", "no command here has written it"];
+    folder.succeeds("sweep sweep.toml --out table.csv");
+    folder.refused("sweep sweep.toml --out record.csv", there);
+    folder.refused("merge record.csv table.csv", there);
+    folder.refused("record record.AT2 --out record.csv", there);
+    assert_eq!(folder.bytes("record.csv"), measured);
+    folder.succeeds("run scene.toml");
+    let rows = folder.bytes("out/response.csv");
+    folder.refused("sweep sweep.toml --out out/response.csv", &["out/response.csv"]);
+    assert_eq!(folder.bytes("out/response.csv"), rows);
+
+    folder.succeeds("record record.AT2 --out copy.csv");
+    folder.succeeds("record record.AT2 --out copy.csv --scale 2");
+    folder.write("empty.csv", "");
+    for name in ["table.csv", "empty.csv"] {
+        folder.succeeds(
+            &format!("merge {name} table.csv").replace("merge table.csv table.csv", "sweep sweep.toml --out table.csv"),
+        );
+    }
+}
+
+/// A file of a run stands for no table and no folder.
+#[test]
+fn the_folder_of_a_run_is_drawn_and_not_its_files() {
+    let folder = Folder::with("scene.toml", SCENE);
+    folder.succeeds("run scene.toml");
+    for name in ["response.csv", "events.json", "summary.json"] {
+        folder.refused(&format!("plot out/{name}"), &[name, "belongs to a run; give its folder, out"]);
+    }
+}

@@ -472,3 +472,47 @@ fn names_and_records_are_left_alone() {
     folder.write("t.csv", "record,pga,outcome\n\"Kobe\n1995, Takatori, H1\",0.1,rocks\nb,0.2,overturns\n");
     folder.succeeds("fragility t.csv --state overturned --replicates 0");
 }
+
+/// Levels that rounding has moved are one stripe: tables that are put together have both `0.3` and `0.30000000000000004`.
+#[test]
+fn levels_that_differ_by_rounding_are_one() {
+    let table = |shift: f64| {
+        let mut table = String::from("record,pgv,outcome,peak_1\n");
+        for level in 1..=5 {
+            for record in 0..6 {
+                let moved = 0.1 * f64::from(level) * (1.0 + shift * f64::from(record));
+                let outcome = if record < level { "overturns" } else { "rocks" };
+                let _ = writeln!(table, "r{record},{moved:?},{outcome},0.5");
+            }
+        }
+        table
+    };
+    let curves = |shift: f64| {
+        let folder = Folder::with("t.csv", &table(shift));
+        let told = folder.answers("fragility t.csv --state overturned --json");
+        let state = told["fragilities"][0].clone();
+        assert_eq!(
+            (&state["layout"], state["counts"].as_array().expect("levels").len()),
+            (&"stripes".into(), 5),
+            "{told}"
+        );
+        state["fit"].clone()
+    };
+    // The representatives of levels are the lowest of them, which rounding has not moved here.
+    assert_eq!(curves(2e-16), curves(0.0));
+    let apart = Folder::with("t.csv", &table(1e-6)).answers("fragility t.csv --state overturned --json");
+    assert_eq!(apart["fragilities"][0]["counts"].as_array().expect("levels").len(), 30);
+}
+
+/// Results, numbers of runs and names are no measures.
+#[test]
+fn columns_that_can_be_no_measure_are_not_offered() {
+    let folder = Folder::with(
+        "t.csv",
+        "index,record,size,outcome,impacts,peak_1\n0,a,0.1,rocks,3,0.1\n1,a,0.2,overturns,1,2.0\n",
+    );
+    let refused = folder.refused("fragility t.csv --state overturned", &["choose one of size with --measure"]);
+    assert!(!unbroken(&refused).contains("impacts"), "{refused}");
+    let none = Folder::with("t.csv", "index,outcome,impacts\n0,rocks,3\n");
+    none.refused("fragility t.csv --state overturned", &["no column has the name of a measure", "rocking ida"]);
+}

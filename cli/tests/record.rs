@@ -73,6 +73,7 @@ fn a_record_is_trimmed_scaled_and_written_and_reads_back() {
         assert_eq!(other["samples"], 21, "{trim:?}");
     }
     assert_eq!(folder.answers("record --trim 0.1.. x.csv --json")["samples"], 11);
+    folder.refused("record x.csv --trim 0,1", &["0,1", "decimal comma", "--trim 2..8"]);
     assert_eq!(folder.answers("record x.csv --trim ..0.05 --json")["samples"], 6);
     let twice = folder.answers("record x.csv --scale -2 --json");
     assert!((twice["pga_g"].as_f64().expect("a number") - 1.0).abs() < 1e-12);

@@ -156,7 +156,7 @@ fn a_damaged_part_is_gone_on_with_from_the_damage() {
 fn links_are_followed_and_devices_left_alone() {
     let folder = folder(SWEEP);
     let whole = table(&folder, "");
-    folder.write("real.csv", "old");
+    folder.write("real.csv", "index,outcome\n");
     folder.link("real.csv", "link.csv");
     folder.succeeds("sweep sweep.toml --out link.csv --quiet");
     assert!(folder.path("link.csv").is_symlink());

@@ -14,7 +14,7 @@ use crate::progress::Progress;
 use crate::table::column::{Column, FAILURE, Kind, Rows, TRUST, fits, has_result};
 use crate::table::growing::Growing;
 use crate::table::runs;
-use crate::table::{Format, open};
+use crate::table::{Format, check_replaced, open};
 use crate::terminal::{json, print, warn, warn_of_some};
 use crate::text::{printable, shown};
 use csv::StringRecord;
@@ -41,6 +41,7 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     let outputs: Vec<PathBuf> = [out].into_iter().chain(&derived).chain(pictures.iter().flatten()).cloned().collect();
     output::check(&outputs, inputs)?;
     let target = output::target(out)?;
+    check_replaced(&target)?;
     let threads = threads(request.threads)?;
     if !request.quiet {
         warn_of_some(&ida.warnings());

@@ -11,7 +11,7 @@ use crate::output;
 use crate::table::column::{Column, FAILURE, Rows, has_result};
 #[cfg(feature = "parquet")]
 use crate::table::parquet;
-use crate::table::{Format, open};
+use crate::table::{Format, check_replaced, open};
 use crate::terminal::print;
 use crate::text::shown;
 use csv::StringRecord;
@@ -48,6 +48,7 @@ pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(),
 
     let failed = |error: std::io::Error| Failure::File(out.into(), error.to_string());
     let target = output::target(out)?;
+    check_replaced(&target)?;
     let merged = temporary(folder_of(&target)).map_err(failed)?;
     let rows = match format {
         Format::Csv => join_csv(&tables, expected.as_ref(), merged.as_file(), failed)?,

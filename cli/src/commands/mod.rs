@@ -28,6 +28,7 @@ use crate::plot::{Angles, Paper};
 use crate::progress::working;
 use crate::terminal::{json, print};
 use modes::Asked;
+use rocking::run_folder::FILES;
 use std::path::Path;
 
 /// Carries out a command.
@@ -39,6 +40,7 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
         Command::Check { scene, json } => check::check(&scene, json),
         Command::Run(run) => run::run(&run),
         Command::Report { folder, out } => report::report(&folder, out.as_deref()),
+        Command::Plot { folder: file, .. } if is_of_run(&file) => Err(Failure::OfRun(file)),
         Command::Plot { folder: table, format, out, degrees, width } if is_table(&table) => {
             spectrum::plot(&table, format, out.as_deref(), &paper(degrees, width), ida::draw)
         }
@@ -77,6 +79,12 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
 /// The layout of figures: angles in degrees or divided by the slenderness, and the printed width.
 fn paper(degrees: bool, width_mm: Option<f64>) -> Paper {
     Paper { width_mm, angles: if degrees { Angles::Degrees } else { Angles::Natural } }
+}
+
+/// Whether a path is a file of a run, and lies beside the others.
+fn is_of_run(path: &Path) -> bool {
+    let is_own = path.file_name().is_some_and(|name| FILES.iter().any(|own| name == *own));
+    is_own && path.is_file() && FILES.iter().all(|own| path.with_file_name(own).is_file())
 }
 
 /// Whether a path names a table: an existing path that is no folder, or a missing path with an extension.

@@ -49,6 +49,7 @@ pub fn record(arguments: &arguments::Record, window: Option<Window>) -> Result<(
     let inputs: Vec<PathBuf> = std::iter::once(&path).chain(&arguments.scene).cloned().collect();
     output::check(&outputs, &inputs)?;
     if let Some(out) = &arguments.out {
+        output::check_replaced(out, |first| first.starts_with(RECORD_HEADING))?;
         output::file(out, record.to_csv())?;
     }
     if let Some(picture) = &arguments.plot {
@@ -111,6 +112,9 @@ fn scaled(
     record.scaled_to(intensity.measure, size * unit, gravity).map_err(refused)
 }
 
+/// How a record that this command has written begins.
+const RECORD_HEADING: &str = "t [s]";
+
 /// The span that `--trim` keeps, from the first sample on `[s]`; `to` may be infinite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
@@ -129,6 +133,9 @@ impl Window {
             return Ok(None);
         }
         let wrong = |problem: &str| Failure::Trim(given.clone(), problem.into());
+        if given.matches(',').count() == 1 && given.chars().all(|c| c.is_ascii_digit() || c == ',') {
+            return Err(wrong("that may be a number with a decimal comma"));
+        }
         let (from, to) = ["..", ",", ":", " "]
             .into_iter()
             .find_map(|delimiter| given.split_once(delimiter))

@@ -10,9 +10,9 @@ use crate::error::Failure;
 use crate::output;
 use crate::plot::Paper;
 use crate::progress::Progress;
-use crate::table::Format;
 use crate::table::column::{Column, FAILURE, Kind, fits, has_result};
 use crate::table::growing::Growing;
+use crate::table::{Format, check_replaced};
 use crate::terminal::{json, print, warn_of_some};
 use crate::text::{printable, shown};
 use csv::StringRecord;
@@ -38,6 +38,7 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
     let inputs = inputs_of(&request.file, &sweep);
     output::check(&made.files(request, &out), &inputs)?;
     let target = output::target(&out)?;
+    check_replaced(&target)?;
     let columns = columns(&sweep)?;
     let threads = threads(request.threads)?;
     if !request.quiet {

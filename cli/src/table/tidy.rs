@@ -153,6 +153,11 @@ pub fn is_nameless(heading: &str) -> bool {
     heading.is_empty() || heading.starts_with("Unnamed: ")
 }
 
+/// Whether the cells of a column are values of an axis: neither results, nor numbers of runs, nor names.
+pub fn is_of_axis(heading: &str) -> bool {
+    !is_nameless(heading) && Cells::of(heading) == Cells::Value
+}
+
 fn is_known(heading: &str) -> bool {
     kind_of_result(heading).is_some() || SETTINGS.contains(&heading)
 }

@@ -1,7 +1,7 @@
 //! The columns of a table of runs, by their names, and the run of a row.
 
 use crate::table::column::{OUTCOME, TRUNCATED, TRUST};
-use crate::table::{INDEX, is_nameless, numbered, tidied_cell, tidied_heading};
+use crate::table::{INDEX, is_nameless, is_of_axis, numbered, tidied_cell, tidied_heading};
 use csv::StringRecord;
 use rocking::intensity::Intensity;
 use rocking::studies::{self, Cells, Observation};
@@ -171,7 +171,18 @@ fn level(names: &[String], measure: Option<&str>) -> Result<usize, String> {
         ([level], _) => Ok(*level),
         ([], Some(measure)) => Err(format!("there is no column `{measure}`; it has {}", known())),
         (_, Some(measure)) => Err(format!("several of its columns are called `{measure}`; remove all but one")),
-        ([], None) => Err(format!("no column has the name of a measure; choose one of {} with --measure", known())),
+        ([], None) => {
+            let possible: Vec<&str> = names.iter().map(String::as_str).filter(|name| is_of_axis(name)).collect();
+            Err(match possible[..] {
+                [] => {
+                    "no column has the name of a measure; give a table of `rocking ida`, or of a sweep over a measure"
+                        .into()
+                }
+                _ => {
+                    format!("no column has the name of a measure; choose one of {} with --measure", possible.join(", "))
+                }
+            })
+        }
         (several, None) => {
             // A study has its measure beside the scale of the record; others may be properties of the records.
             let of_study = several.iter().find(|place| **place > 0 && names[**place - 1] == SCALE);
