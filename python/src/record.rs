@@ -153,6 +153,11 @@ impl Record {
         self.record.clone().named(name).into()
     }
 
+    /// Number of samples.
+    fn __len__(&self) -> usize {
+        self.record.accel().len()
+    }
+
     #[getter]
     fn accel<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         PyArray1::from_slice(py, self.record.accel())

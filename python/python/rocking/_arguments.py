@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+import os
 from collections.abc import Iterator
 from typing import Any
 
@@ -55,6 +56,14 @@ def numbers(name: str, values: Any) -> npt.NDArray[np.float64]:
     if array.dtype.kind not in "iuf":
         raise TypeError(f"{name} has values of {array.dtype}; give numbers")
     return array.astype(np.float64)
+
+
+def path_text(name: str, value: str | bytes | os.PathLike[str] | os.PathLike[bytes]) -> str:
+    """A path as a text."""
+    found = os.fsdecode(value)
+    if not found:
+        raise ValueError(f"{name} is empty; give a path, '.' for the present folder")
+    return found
 
 
 def text(name: str, value: Any) -> str:

@@ -21,8 +21,8 @@ class SceneError(RockingError, ValueError):
     Attributes
     ----------
     file : str
-        The file, or the folder of records. What was made in Python has a name instead: ``<scene>`` (its text is ``Scene.toml``), ``<column>``,
-        ``<sweep>``, ``<point of a sweep>`` or ``<run of a study>``.
+        The file, or the folder of records. What was made in Python has a name in angle brackets instead, such as ``<sweep>`` or ``<scene>``; lines of a
+        scene are those of ``Scene.toml``.
     line : int
         Line of the file, from 1; 0 where there is none.
     key : str

@@ -6,6 +6,8 @@ import os
 from collections.abc import Iterator, Mapping
 from typing import Any, Union
 
+import numpy as np
+
 from ._keys import copied
 from ._record import Record, StudyRecord
 
@@ -31,6 +33,11 @@ class Motion(Mapping[str, Any]):
     def __len__(self) -> int:
         return len(self._keys)
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Mapping) and _plain(self) == _plain(other)
+
+    __hash__ = None  # type: ignore[assignment]
+
     def __repr__(self) -> str:
         return f"Motion({', '.join(f'{key}={value!r}' for key, value in self._keys.items())})"
 
@@ -43,6 +50,15 @@ class Motion(Mapping[str, Any]):
 
     def _scene_keys(self) -> dict[str, Any]:
         return self._keys
+
+
+def _plain(value: Any) -> Any:
+    """Keys in which arrays are lists, so that they can be compared."""
+    if isinstance(value, Mapping):
+        return {key: _plain(own) for key, own in value.items()}
+    if isinstance(value, (list, tuple, np.ndarray)):
+        return [_plain(own) for own in (value.tolist() if isinstance(value, np.ndarray) else value)]
+    return value
 
 
 def pulse(

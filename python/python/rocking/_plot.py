@@ -80,7 +80,7 @@ def study(drawn: "Study", ax: "Axes | None" = None) -> "Axes":
         own = np.asarray(places)[np.argsort(sizes[places])]
         ax.plot(demand[own], sizes[own], lw=0.8, color="0.7", marker=".", ms=3)
     has_fractiles = len(set(labels)) >= LEAST_RECORDS
-    decided = np.array([np.count_nonzero(~undecided[sizes == level]) for level in stripes[drawn.measure]])
+    decided = (stripes.runs - stripes.errors - stripes.undetermined - stripes.not_determined).to_numpy()
     for share, style in ((16, ":"), (50, "-"), (84, "--")) if has_fractiles else ():
         # Of one run or two, all fractiles are the same few values.
         fractile = np.where(decided >= LEAST_RECORDS, stripes[f"peak_{share}"].to_numpy(), np.nan)

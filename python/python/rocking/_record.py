@@ -360,7 +360,7 @@ class Record:
         return record(self, ax)
 
     def __len__(self) -> int:
-        return len(self._record.accel)
+        return len(self._record)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Record) and self._record.equals(other._record)

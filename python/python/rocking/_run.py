@@ -8,14 +8,14 @@ import tempfile
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 from html import escape
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
 from . import _rocking
-from ._arguments import flag, text
+from ._arguments import flag, path_text, text
 from ._errors import SceneError
 from ._motion import MotionLike
 from ._record import Array, _fixed
@@ -27,6 +27,16 @@ NO_ROWS = 1e9
 
 #: What the contacts transmit, with units.
 FORCES = (("normal", "N"), ("tangential", "N"), ("moment", "N m"))
+
+_T = TypeVar("_T")
+
+
+class computed_once(cached_property[_T]):
+    """A property that is computed when it is first read, and cannot be set."""
+
+    def __set__(self, instance: object, value: object) -> NoReturn:
+        raise AttributeError(f"{self.attrname} of a run is a result and cannot be set")
+
 
 if TYPE_CHECKING:
     import xarray
@@ -87,7 +97,8 @@ def simulate(
     try:
         scene = _scene(base, motion, vertical, arguments)
     except SceneError as refused:
-        if rows or arguments.get("output_dt") is not None or arguments.get("t_eval") is not None or "rows up to t_end" not in str(refused):
+        makes_rows = rows and wanted == "everything"
+        if makes_rows or arguments.get("output_dt") is not None or arguments.get("t_eval") is not None or "rows up to t_end" not in str(refused):
             raise
         # Rows at the usual interval are too many for the memory, and none are asked for.
         scene = _scene(base, motion, vertical, {**arguments, "output_dt": NO_ROWS})
@@ -138,64 +149,64 @@ class Run:
         self.scene = scene
         self._response = response
 
-    @cached_property
+    @computed_once
     def t(self) -> Array:
         """Times of the rows [s], shape (rows,)."""
         return _fixed(self._response.t())
 
-    @cached_property
+    @computed_once
     def theta(self) -> Array:
         """Angles of the blocks [rad], clockwise positive, shape (rows, blocks)."""
         return _fixed(self._response.theta())
 
-    @cached_property
+    @computed_once
     def omega(self) -> Array:
         """Rates of the angles [rad/s], shape (rows, blocks)."""
         return _fixed(self._response.omega())
 
-    @cached_property
+    @computed_once
     def ground(self) -> Array:
         """Ground acceleration, horizontal and vertical [m/s²], shape (rows, 2)."""
         return _fixed(self._response.ground())
 
-    @cached_property
+    @computed_once
     def pattern(self) -> npt.NDArray[np.int8]:
         """Signs of the interfaces: 1 where the block above stands on its right corner (``phi`` > 0), -1 on its left, 0 closed; shape (rows, blocks)."""
         return _fixed(self._response.pattern())
 
-    @cached_property
+    @computed_once
     def slide(self) -> Array | None:
         """Slides at the interfaces [m], shape (rows, blocks); None without friction."""
         return _fixed(self._response.slide())
 
-    @cached_property
+    @computed_once
     def gap(self) -> Array | None:
         """Gaps of interfaces in flight [m], shape (rows, blocks); None without friction."""
         return _fixed(self._response.gap())
 
-    @cached_property
+    @computed_once
     def place(self) -> Array | None:
         """Centroids in the frame of the ground [m], shape (rows, blocks, 2); None where nothing slides or flies."""
         state = _fixed(self._response.place_and_velocity())
         return None if state is None else state[:, :, :2]
 
-    @cached_property
+    @computed_once
     def velocity(self) -> Array | None:
         """Velocities of the centroids in the frame of the ground [m/s], shape (rows, blocks, 2); None where nothing slides or flies."""
         state = _fixed(self._response.place_and_velocity())
         return None if state is None else state[:, :, 2:]
 
-    @cached_property
+    @computed_once
     def force(self) -> Array | None:
         """Normal force, tangential force [N] and moment [N m] of the contacts, shape (rows, blocks, 3); None where nothing slides or flies."""
         return _fixed(self._response.force())
 
-    @cached_property
+    @computed_once
     def phi(self) -> Array:
         """Rotations at the interfaces [rad], the angle of the block above minus that of the block below, shape (rows, blocks)."""
         return _fixed(self._response.relative_angles())
 
-    @cached_property
+    @computed_once
     def top(self) -> Array:
         """Displacement of the middle of the column's top in the frame of the ground [m], to the right and upwards, shape (rows, 2).
 
@@ -217,7 +228,7 @@ class Run:
         """
         return self._events.copy()
 
-    @cached_property
+    @computed_once
     def _events(self) -> pd.DataFrame:
         columns: dict[str, Any] = {}
         for name, values in self._response.events().items():
@@ -235,7 +246,7 @@ class Run:
         read: dict[str, Any] = json.loads(self._response.summary())
         return {**read, "impacts": self._response.impacts}
 
-    @cached_property
+    @computed_once
     def trust(self) -> Trust | None:
         """How far the run is determined; None for a run without companions, see :func:`simulate`."""
         sentence = self._response.trust
@@ -285,19 +296,19 @@ class Run:
         """Duration of the computation [s]."""
         return self._response.seconds
 
-    @cached_property
+    @computed_once
     def peak_theta(self) -> Array:
         """Largest size of each angle [rad], shape (blocks,); (0,) where only the outcome is asked for."""
         return _fixed(self._response.peak_theta())
 
-    @cached_property
+    @computed_once
     def peaks(self) -> Array:
         """Largest size of each angle over the slenderness of the stack from its block up, as ``peaks`` of sweeps; infinite where that stack does not stand
         by itself; shape (blocks,); (0,) where only the outcome is asked for.
         """
         return _fixed(self._response.peaks())
 
-    @cached_property
+    @computed_once
     def alpha(self) -> Array:
         """Slenderness of the stack that begins with each block [rad], initial slides included, below zero where it leans beyond its support; shape (blocks,)."""
         return _fixed(np.array(self.scene._compiled.stacks()["alpha"]))
@@ -380,7 +391,7 @@ class Run:
         """
         if self._response.impacts is None:
             raise ValueError("the run has its outcome alone; run it without `wanted` to write its folder")
-        self._response.write(os.fspath(folder))
+        self._response.write(path_text("folder", folder))
 
     def report(self, file: str | os.PathLike[str]) -> None:
         """Writes the page of the run: one HTML file with outcome, validity, animation, figures, inputs; ValueError for a run without rows."""

@@ -12,7 +12,7 @@ import numpy.typing as npt
 import pandas as pd
 
 from . import _rocking
-from ._arguments import number
+from ._arguments import number, path_text
 from ._errors import SceneError
 from ._keys import copied
 from ._motion import Motion, MotionLike, checked
@@ -373,7 +373,7 @@ class Scene:
             For a scene that is refused, with file, line, key and remedy; :class:`MissingFileError` where the file, or a record of it, is not there.
         """
         # What is read later of its records, by `replace` or another process, may be read in another folder.
-        path = os.path.abspath(file)
+        path = os.path.abspath(path_text("file", file))
         return cls.from_toml(_rocking.scene_text(path), file=path)
 
     @classmethod

@@ -146,13 +146,17 @@ def to_parquet(
 ) -> None:
     """Runs a study into a folder of Parquet files, a file per partition, by the present client; no worker holds more than its partition.
 
-    Arguments as of :func:`frame`; ``options`` are those of ``dask.dataframe.DataFrame.to_parquet``.
+    Arguments as of :func:`frame`; ``options`` are those of ``dask.dataframe.DataFrame.to_parquet``, but for ``compute`` and ``write_index``.
 
     Raises
     ------
     FileExistsError
         For a folder that has Parquet files, unless ``overwrite`` or ``append`` is given.
+    TypeError
+        For ``compute`` or ``write_index``: the table is written at once, and its rows are numbered by a column of their own.
     """
+    for name in {"compute", "write_index"} & set(options):
+        raise TypeError(f"there is no argument `{name}` of rocking.dask.to_parquet: the table is written at once, without an index; use rocking.dask.frame")
     path = os.fspath(folder)
     is_kept = options.get("overwrite") or options.get("append")
     if not is_kept and os.path.isdir(path) and any(name.endswith((".parquet", ".parq")) for name in os.listdir(path)):
