@@ -25,7 +25,7 @@ pub struct Articulation {
     eliminated: Vec<Eliminated>,
 }
 
-/// A block as part of the column.
+/// A block, and the interface below it.
 #[derive(Clone, Copy, Debug)]
 struct Body {
     mass: f64,
@@ -35,8 +35,9 @@ struct Body {
     to_next: Vec2,
     /// Coordinates of the interface below.
     coordinates: usize,
-    /// The interface below is free, or slides.
+    /// Whether the interface below is free.
     is_free: bool,
+    /// Whether it slides.
     slides: bool,
 }
 
@@ -55,10 +56,19 @@ struct Eliminated {
     pivot: f64,
 }
 
+/// Largest correction by a step of iterative refinement, as a share of what is corrected.
+const MOST_CORRECTION: f64 = 0.5;
+
 /// Motions of the blocks at the points where they are carried, and rates of slides.
 struct Motions {
     blocks: PerBlock<Planar>,
     slides: PerBlock<f64>,
+}
+
+impl Motions {
+    fn largest(&self) -> f64 {
+        self.blocks.iter().flatten().fold(0.0, |most, value| most.max(value.abs()))
+    }
 }
 
 impl Articulation {
@@ -123,6 +133,10 @@ impl Articulation {
         let left: PerBlock<Planar> =
             left.map(|((body, own), load)| minus(*load, moved(*own, body.to_centroid))).collect();
         let correction = self.motions(&left);
+        // Where the rows are almost singular it does not converge: forces would change their sign at another place than the determinant.
+        if correction.largest() > MOST_CORRECTION * motions.largest() {
+            return self.rates(motions);
+        }
         motions.blocks.iter_mut().zip(&correction.blocks).for_each(|(own, more)| *own = plus_times(*own, 1.0, *more));
         motions.slides.iter_mut().zip(&correction.slides).for_each(|(own, more)| *own += more);
         self.rates(motions)

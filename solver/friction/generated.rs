@@ -78,12 +78,20 @@ impl Generated {
     }
 
     /// Second derivatives of the coordinates ([`coordinates`]) from their values and rates, into `accelerations`; all lists have one entry per
-    /// coordinate. Results are NaN where the rows do not determine them.
-    pub fn accelerations(&mut self, values: &[f64], rates: &[f64], ground: Ground, accelerations: &mut [f64]) {
+    /// coordinate. Returns whether the determinant of the rows is above zero. Where the rows do not determine them, results are NaN, and `None` is returned.
+    pub fn accelerations(
+        &mut self,
+        values: &[f64],
+        rates: &[f64],
+        ground: Ground,
+        accelerations: &mut [f64],
+    ) -> Option<bool> {
         match &mut self.equations {
             Equations::Sticking(mode) => {
                 let derivative = mode.derivative(&[values, rates].concat(), ground);
                 accelerations.copy_from_slice(&derivative[self.coordinates.len()..]);
+                // A mass matrix is positive definite.
+                Some(true)
             }
             Equations::Moving(moving) => moving.accelerations(values, rates, ground, accelerations),
         }
@@ -93,12 +101,22 @@ impl Generated {
 impl Generated {
     /// Accelerations of all coordinates of a configuration in these states; `None` where the rows do not determine them.
     pub fn accelerations_of(&mut self, configuration: &Configuration, ground: Ground) -> Option<Rates> {
+        let (accelerations, _) = self.solved(configuration, ground);
+        let is_determined = accelerations.iter().all(|value| value.is_finite());
+        is_determined.then(|| rows::by_block(&self.coordinates, &accelerations, configuration.joints.len()))
+    }
+
+    /// Whether the determinant of the rows of a configuration in these states is above zero; `None` where they are singular.
+    pub fn is_positive(&mut self, configuration: &Configuration) -> Option<bool> {
+        self.solved(configuration, Ground::default()).1
+    }
+
+    fn solved(&mut self, configuration: &Configuration, ground: Ground) -> (Vec<f64>, Option<bool>) {
         let both: Vec<[f64; 2]> = self.coordinates.iter().map(|coordinate| coordinate.of(configuration)).collect();
         let [values, rates] = [0, 1].map(|part| both.iter().map(|pair| pair[part]).collect::<Vec<f64>>());
         let mut accelerations = vec![0.0; both.len()];
-        self.accelerations(&values, &rates, ground, &mut accelerations);
-        let is_determined = accelerations.iter().all(|value| value.is_finite());
-        is_determined.then(|| rows::by_block(&self.coordinates, &accelerations, configuration.joints.len()))
+        let is_positive = self.accelerations(&values, &rates, ground, &mut accelerations);
+        (accelerations, is_positive)
     }
 }
 
@@ -160,7 +178,13 @@ impl Moving {
         })
     }
 
-    fn accelerations(&mut self, values: &[f64], rates: &[f64], ground: Ground, accelerations: &mut [f64]) {
+    fn accelerations(
+        &mut self,
+        values: &[f64],
+        rates: &[f64],
+        ground: Ground,
+        accelerations: &mut [f64],
+    ) -> Option<bool> {
         for translation in self.translations.iter().filter(|each| matches!(each.direction, Direction::Face(_))) {
             self.slide[translation.interface] = values[translation.coordinate];
         }
@@ -182,13 +206,16 @@ impl Moving {
         for link in 0..self.angles.len() {
             self.carry(link);
         }
-        if !(self.equations)(&self.lists, &mut self.solution) {
-            return accelerations.fill(f64::NAN);
+        let is_positive = (self.equations)(&self.lists, &mut self.solution);
+        if is_positive.is_none() {
+            accelerations.fill(f64::NAN);
+            return None;
         }
         let places = self.angles.iter().copied().chain(self.translations.iter().map(|each| each.coordinate));
         for (place, value) in places.zip(&self.solution) {
             accelerations[place] = *value;
         }
+        is_positive
     }
 
     /// Contact point of an interface on the lower and on the upper face, each from the middle of the face to the right `[m]`; zeros for a free

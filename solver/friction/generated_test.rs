@@ -89,9 +89,10 @@ fn compare(random: &mut Random, column: &Column, configuration: &Configuration) 
     let both: Vec<[f64; 2]> = coordinates.iter().map(|coordinate| coordinate.of(configuration)).collect();
     let [values, rates] = [0, 1].map(|part| both.iter().map(|pair| pair[part]).collect::<Vec<f64>>());
     let mut ours = vec![0.0; coordinates.len()];
-    generated.accelerations(&values, &rates, ground, &mut ours);
+    let is_positive = generated.accelerations(&values, &rates, ground, &mut ours);
     let chain = Chain::new(column, configuration);
     let rows = Rows::new(&chain, joints, &kinetic, &vec![0.0; joints.len()]);
+    assert_eq!((is_positive, is_positive), (rows.is_positive(), generated.is_positive(configuration)), "{joints:?}");
     let answer = rows.accelerations(&Rates::of(configuration), ground).expect("moderate friction");
     let theirs = coordinates.iter().map(|coordinate| match coordinate {
         Coordinate::Angle(blocks) => answer.motion.omega[blocks.start],

@@ -62,8 +62,9 @@ impl MovingLists {
     }
 }
 
-/// Writes the second derivatives of the angles, then of the translations, into a list. Returns true if the rows determine them.
-pub type MovingEquations = fn(&MovingLists, &mut [f64]) -> bool;
+/// Writes the second derivatives of the angles, then of the translations, into a list. Returns whether the determinant of the rows is above zero; `None` if
+/// they determine nothing.
+pub type MovingEquations = fn(&MovingLists, &mut [f64]) -> Option<bool>;
 
 /// The equations of a program. Called by generated modules.
 pub fn moving_equations<P, const ANGLES: usize, const TRANSLATIONS: usize, const SIZE: usize>() -> MovingEquations
@@ -91,10 +92,8 @@ where
             gravity: lists.ground[1],
         };
         let (matrix, loads) = P::rows(&carried, &state);
-        let solution = eliminate(matrix, loads);
-        if let Some(solution) = solution {
-            accelerations.copy_from_slice(&solution);
-        }
-        solution.is_some()
+        let (solution, is_positive) = eliminate(matrix, loads)?;
+        accelerations.copy_from_slice(&solution);
+        Some(is_positive)
     }
 }

@@ -6,10 +6,14 @@ use smallvec::SmallVec;
 /// Size of a matrix up to which its storage is inline.
 const USUAL_SIZE: usize = 6;
 
-/// `x` of `matrix · x = loads`; `None` if a pivot vanishes or the solution is not finite. Pivots are the largest entries relative to their rows (scaled
+/// `x` of `matrix · x = loads`, and whether the determinant is above zero; `None` if a pivot vanishes or the solution is not finite. Pivots are the largest entries relative to their rows (scaled
 /// partial pivoting): the row of a light block has small entries, and keeps its digits.
 #[inline]
-pub fn eliminate<const SIZE: usize>(mut matrix: [[f64; SIZE]; SIZE], mut loads: [f64; SIZE]) -> Option<[f64; SIZE]> {
+pub fn eliminate<const SIZE: usize>(
+    mut matrix: [[f64; SIZE]; SIZE],
+    mut loads: [f64; SIZE],
+) -> Option<([f64; SIZE], bool)> {
+    let mut is_positive = true;
     let mut scales = matrix.map(|row| 1.0 / row.iter().fold(0.0f64, |most, entry| most.max(entry.abs())));
     for column in 0..SIZE {
         let mut pivot = column;
@@ -24,6 +28,7 @@ pub fn eliminate<const SIZE: usize>(mut matrix: [[f64; SIZE]; SIZE], mut loads: 
         if matrix[column][column] == 0.0 {
             return None;
         }
+        is_positive ^= (pivot != column) ^ (matrix[column][column] < 0.0);
         let inverse = 1.0 / matrix[column][column];
         let (own, load) = (matrix[column], loads[column]);
         for row in column + 1..SIZE {
@@ -40,7 +45,7 @@ pub fn eliminate<const SIZE: usize>(mut matrix: [[f64; SIZE]; SIZE], mut loads: 
         }
         loads[row] /= matrix[row][row];
     }
-    loads.iter().all(|value| value.is_finite()).then_some(loads)
+    loads.iter().all(|value| value.is_finite()).then_some((loads, is_positive))
 }
 
 /// A matrix, and its factors once it is factorised.
@@ -130,7 +135,8 @@ mod tests {
         let matrix = [[0.0, 2.0, 1.0], [1.0, 1.0, 1.0], [4.0, -2.0, 3.0]];
         let x = [0.5, -3.0, 2.0];
         let loads = matrix.map(|row| row.iter().zip(&x).map(|(a, b)| a * b).sum());
-        let solution = eliminate(matrix, loads).expect("regular");
+        let (solution, is_positive) = eliminate(matrix, loads).expect("regular");
+        assert!(!is_positive, "the determinant is -4");
         assert!(solution.iter().zip(&x).all(|(a, b)| (a - b).abs() < 1e-14), "{solution:?}");
         let mut factors = Factors::with_size(3);
         for (row, entries) in matrix.iter().enumerate() {
@@ -148,7 +154,9 @@ mod tests {
             let mut factors = Factors::with_size(2);
             (0..4).for_each(|k| *factors.entry(k / 2, k % 2) = matrix[k / 2][k % 2]);
             factors.factorise().expect("regular");
-            factors.is_positive()
+            let (_, is_positive) = eliminate(matrix, [1.0, 1.0]).expect("regular");
+            assert_eq!(is_positive, factors.is_positive());
+            is_positive
         };
         assert!(of([[2.0, 1.0], [1.0, 2.0]]) && of([[0.0, -1.0], [1.0, 0.0]]) && of([[-2.0, 1.0], [1.0, -2.0]]));
         assert!(!of([[0.0, 1.0], [1.0, 0.0]]) && !of([[1.0, 2.0], [2.0, 1.0]]));

@@ -121,13 +121,30 @@ impl<'p> Smooth<'p> {
     }
 
     /// Whether the determinant of the rows has the sign that it had where these states began. Where it changes, forces are infinite on the way (Painlevé).
-    pub fn is_regular(&self, now: &Configuration, chain: &Chain) -> bool {
-        let of = |now: &Configuration, chain: &Chain| {
-            let centres: PerBlock<f64> = (0..self.column.len()).map(|i| centre(self.column, i, now.slide[i])).collect();
-            Rows::new(chain, &now.joints, &self.friction.kinetic, &centres).is_positive()
+    pub fn is_regular(&mut self, now: &Configuration, chain: &Chain) -> bool {
+        let at_start = match self.is_positive.get() {
+            Some(at_start) => *at_start,
+            None => {
+                let base = self.base.clone();
+                let at_start = self.has_positive_rows(&base, &Chain::new(self.column, &base));
+                *self.is_positive.get_or_init(|| at_start)
+            }
         };
-        let at_start = self.is_positive.get_or_init(|| of(&self.base, &Chain::new(self.column, &self.base)));
-        of(now, chain) == *at_start
+        self.has_positive_rows(now, chain) == at_start
+    }
+
+    /// Whether the determinant of the rows is above zero; `None` if they are singular. It comes from the elimination from which the forces come: in another one,
+    /// rounding has it change its sign in another instant.
+    fn has_positive_rows(&mut self, now: &Configuration, chain: &Chain) -> Option<bool> {
+        if let Some(generated) = self.generated() {
+            return generated.is_positive(now);
+        }
+        Rows::new(chain, &now.joints, &self.friction.kinetic, &self.centres(now)).is_positive()
+    }
+
+    /// Centres of the contacts, were their faces to lie on each other, on the lower faces `[m]`.
+    fn centres(&self, now: &Configuration) -> PerBlock<f64> {
+        (0..self.column.len()).map(|i| centre(self.column, i, now.slide[i])).collect()
     }
 
     /// Why no step can be taken from a state at a time `[s]`; `step` is the last one that was tried `[s]`.
@@ -150,7 +167,7 @@ impl<'p> Smooth<'p> {
 
     fn solved(&mut self, t: f64, now: &Configuration, chain: &Chain) -> Option<Answer> {
         self.calls += 1;
-        let centres: PerBlock<f64> = (0..self.column.len()).map(|i| centre(self.column, i, now.slide[i])).collect();
+        let centres = self.centres(now);
         let (rates, ground) = (Rates::of(now), Ground::at(self.segment, t, self.gravity));
         if let Some(generated) = self.generated() {
             let second = generated.accelerations_of(now, ground)?;
