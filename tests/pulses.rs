@@ -30,6 +30,23 @@ fn largest_difference(a: &Response, b: &Response) -> f64 {
     pairs.fold(0.0, |largest, (a, b)| largest.max((a - b).abs()))
 }
 
+/// The names of all kinds, as the reader of scenes lists them.
+fn names_of_kinds() -> Vec<String> {
+    let scene = "[[block]]\nhalf_width = 0.3\nhalf_height = 1.0\n[excitation.horizontal]\nkind = \"none\"\n";
+    let error = Scene::from_toml(scene, Path::new("s.toml")).expect_err("there is no such kind").to_string();
+    let (_, kinds) = error.split_once("choose one of ").expect("a list of kinds");
+    kinds.split(',').map(|name| name.split_whitespace().next().unwrap_or_default().to_string()).collect()
+}
+
+#[test]
+fn every_kind_is_tried_here() {
+    let names = names_of_kinds();
+    assert!(names.len() > 10, "{names:?}");
+    for name in names {
+        assert!(KINDS.contains(&format!("kind = \"{name}\"")), "tests/pulses.toml has no `{name}`");
+    }
+}
+
 #[test]
 fn every_kind_shakes_as_its_samples_do() {
     let mut moved = 0;

@@ -117,8 +117,11 @@ fn the_schema_of_scenes_has_every_method_and_every_kind_of_motion() {
     let known = values_of("Kind");
     let names: Vec<&str> = kinds.split(',').map(|name| name.split_whitespace().next().unwrap_or_default()).collect();
     assert!(names.len() > 10, "{error}");
+    let scenes = scenes();
     for name in names {
         assert!(known.contains(name), "cli/src/keys/motion.rs does not know the kind `{name}`");
+        let is_of_kind = |scene: &String| scene.contains(&format!("kind = \"{name}\""));
+        assert!(scenes.iter().any(is_of_kind), "the scenes of this test have no `{name}`: its keys are not compared");
     }
 }
 

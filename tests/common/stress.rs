@@ -130,7 +130,7 @@ pub fn scene(seed: u64) -> Scene {
     random.bits();
     let mut scene = Scene::new(column(random));
     let options = &mut scene.options;
-    options.method = Method::ACCURATE[(seed % 3) as usize];
+    options.method = Method::ACCURATE[(seed % Method::ACCURATE.len() as u64) as usize];
     options.rtol = random.scale(1e-9, 1e-5);
     options.atol = 1e-3 * options.rtol;
     options.t_end = random.scale(0.1, 2.0);
