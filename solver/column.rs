@@ -573,7 +573,7 @@ impl Stack {
         libm::atan2(self.half_width, self.centroid_height)
     }
 
-    /// Distance `R` of the centre of gravity from a corner `[m]`.
+    /// Distance `R` of the centre of gravity from the nearer end of the contact `[m]`.
     pub fn radius(&self) -> f64 {
         libm::hypot(self.half_width, self.centroid_height)
     }

@@ -32,6 +32,9 @@ const PART: usize = 1 << 16;
 /// them are finished at the latest, or when the next run of the same thread ends. Where none has finished it hands over an empty list as often. When `take`
 /// breaks, no further result is begun.
 ///
+/// # Panics
+/// If it is called on a thread of `pool`, which would wait for itself.
+///
 /// ```
 /// use std::ops::ControlFlow;
 /// let pool = rayon::ThreadPoolBuilder::new().build()?;
@@ -50,6 +53,10 @@ pub fn in_order<T: Send, W: FnMut(usize) -> T>(
     worker: impl Fn() -> W + Sync,
     mut take: impl FnMut(Vec<T>) -> ControlFlow<()>,
 ) {
+    assert!(
+        pool.current_thread_index().is_none(),
+        "in_order is called on a thread of its pool; call it from another one"
+    );
     let mut next = range.start;
     while next < range.end {
         let end = range.end.min(next.saturating_add(PART));

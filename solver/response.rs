@@ -45,7 +45,8 @@ impl StopReason {
         matches!(self, StopReason::Overturned | StopReason::Falls)
     }
 
-    /// Whether the column stands at the end of the run.
+    /// Whether the run ended without overturning, collapse or a motion that is not determined. At the end of time the column may be falling:
+    /// [`Response::may_overturn`].
     pub fn stands(self) -> bool {
         matches!(self, StopReason::AtRest | StopReason::EndOfTime | StopReason::Stands)
     }
@@ -418,6 +419,10 @@ impl Response {
     }
 
     /// Whether the run ended with a block at an overturning angle `[rad]` that is below the balance of the stack that begins with it: it may have returned.
+    /// `column` is that of the run.
+    ///
+    /// # Panics
+    /// If the column has fewer blocks than the run.
     pub fn ends_below_balance(&self, column: &Column, overturn_angle: f64) -> bool {
         let is_below = |block: usize| overturn_angle < column.stack(block - 1).slenderness();
         self.status == StopReason::Overturned && self.overturned_block.is_some_and(is_below)

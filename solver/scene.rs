@@ -217,8 +217,8 @@ pub struct Look {
 
 /// What is simulated. Start from [`Scene::new`] and set fields.
 ///
-/// A serialised scene has all of its numbers, samples of records included, and reads back as an equal scene. Column and records are checked when
-/// they are read, all else by [`Scene::check`].
+/// A serialised scene has all of its numbers, samples of records included, and reads back as an equal scene if they are finite, as those of a valid scene are:
+/// JSON has no infinity. Column and records are checked when they are read, all else by [`Scene::check`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
@@ -610,6 +610,6 @@ const MOST_MEMORY: f64 = 5e6;
 /// Memory of a row besides that of its blocks, in the same units.
 const MEMORY_PER_ROW: f64 = 10.0;
 
-/// Memory of a block in a row with friction, in the same units. Place, velocity, force, slide and gap besides angle and rate are 5.5 units, of which the
-/// list takes none twice: runs of 1 to 60 blocks take less than 200 MB.
+/// Memory of a block in a row with friction, in the same units. Place, velocity, force, slide and gap are 5.5 units besides angle and rate, in lists of their own,
+/// which are not copied while the list of rows grows: counted half. Runs of 1 to 60 blocks take less than 200 MB.
 const MEMORY_WITH_FRICTION: f64 = 3.0;

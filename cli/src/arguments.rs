@@ -21,9 +21,10 @@ pub struct Arguments {
     pub command: Command,
 }
 
-/// First steps for a new user, printed after the help.
+/// First steps for a new user, and what a build may lack, printed after the help.
 const FIRST_STEPS: &str = "To begin: `rocking init` writes scene.toml; put in your column and ground motion, then\n\
-    `rocking check scene.toml` and `rocking run scene.toml --report`.";
+    `rocking check scene.toml` and `rocking run scene.toml --report`.\n\
+    Figures in PDF and tables in Parquet need a build with `--features pdf,parquet`.";
 
 /// A command.
 #[derive(Debug, Subcommand)]

@@ -80,7 +80,7 @@ impl Excitation {
         [&self.horizontal, &self.vertical].into_iter().flatten().any(|motion| motion.moves_after(t))
     }
 
-    /// The segments that cover `0 .. t_end` `[s]`, in order, without gaps.
+    /// The segments that cover `0 .. t_end` `[s]`, in order, without gaps; `t_end` is finite. There are none for a time that is rounding, 1e-14 s and less.
     pub fn segments(&self, t_end: f64) -> Vec<Segment> {
         let mut segments = Vec::new();
         self.divide(t_end, &mut segments);

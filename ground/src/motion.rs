@@ -265,7 +265,7 @@ impl Motion {
 
     /// Whether the acceleration is other than zero at some time after `t` `[s]`. Times that differ by their rounding are equal.
     pub fn moves_after(&self, t: f64) -> bool {
-        self.still_from().is_none_or(|still| still > t * (1.0 + ROUNDING_OF_TIME))
+        self.still_from().is_none_or(|still| still > t + t.abs() * ROUNDING_OF_TIME)
     }
 
     /// Time up to which the acceleration is zero `[s]`: the start of the motion, but for a record the last of the zeros at its start.

@@ -101,7 +101,7 @@ impl Piece {
     /// Taylor coefficients of the acceleration about `t`: `coefficients[k]` in `[m/s^(2+k)]`.
     ///
     /// # Panics
-    /// If there is room for none.
+    /// May panic if there is room for none.
     #[inline]
     pub fn expand_at(&self, t: f64, coefficients: &mut [f64]) {
         coefficients.fill(0.0);

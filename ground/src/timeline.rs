@@ -83,7 +83,7 @@ impl Timeline {
     /// It is infinite if this or a later segment has a vertical acceleration.
     ///
     /// # Panics
-    /// Unless [`Lookahead::decay`] was requested.
+    /// If there is no such segment, or unless [`Lookahead::decay`] was requested.
     pub fn push_from(&self, side: f64, segment: usize, t: f64) -> f64 {
         let [left, right] = self.pushes[segment];
         let later = if side < 0.0 { left } else { right };
@@ -93,6 +93,9 @@ impl Timeline {
 
     /// Upper bound `[m/s]` of the push to a side within a span of a segment, discounted to the start of the span. It is infinite if the
     /// segment has a vertical acceleration.
+    ///
+    /// # Panics
+    /// If there is no such segment.
     pub fn push_in(&self, side: f64, segment: usize, span: [f64; 2]) -> f64 {
         let Segment { horizontal, vertical, .. } = &self.segments[segment];
         if *vertical == Piece::Zero { horizontal.push(side, span, self.decay) } else { f64::INFINITY }

@@ -127,3 +127,11 @@ def test_a_partition_takes_about_as_long_as_asked() -> None:
     for rows in (range(0), range(5, len(SWEEP) + 1), range(-1, 5), range(0, 10, 2)):
         with pytest.raises(ValueError, match="no range of the 8816 rows"):
             rd.frame(SWEEP, rows=rows)
+
+
+def test_the_table_is_written_at_once_and_without_an_index(tmp_path: Path) -> None:
+    scene = rk.Scene(rk.Column.prisms(1, half_width=0.4, half_height=1.6), theta=[0.1], t_end=1)
+    for name in ("compute", "write_index"):
+        with pytest.raises(TypeError, match=f"no argument `{name}`"):
+            rd.to_parquet(rk.Sweep(scene, {"eta": [0.8, 0.9]}), tmp_path, **{name: False})
+    assert list(tmp_path.iterdir()) == []

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import pickle
 import re
 import subprocess
@@ -322,3 +323,30 @@ def test_events_have_all_that_events_json_has() -> None:
             assert [row[f"vx_after_{number}"], row[f"vy_after_{number}"]] == block["velocity_after"]
         for number, impulse in enumerate(event.get("impulses", []), start=1):
             assert row[f"moment_impulse_{number}"] == impulse["moment"]
+
+
+def test_results_of_a_run_cannot_be_set() -> None:
+    run = rk.simulate(rk.Column.prisms(1, half_width=0.4, half_height=1.6), theta=[0.1], t_end=1, output_dt=0.5)
+    for name in ("t", "theta", "peaks", "pattern"):
+        with pytest.raises(AttributeError, match=f"{name} of a run is a result"):
+            setattr(run, name, np.zeros((1, 1)))
+    assert run.theta.shape == (3, 1) and run.theta is run.theta
+    assert run.to_pandas().shape[0] == 3
+
+
+def test_folders_of_runs_are_paths(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    run = rk.simulate(rk.Column.prisms(1, half_width=0.4, half_height=1.6), theta=[0.1], t_end=1)
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(ValueError, match="folder is empty"):
+        run.write("")
+    assert list(tmp_path.iterdir()) == []
+    run.write(os.fsencode(tmp_path / "run"))
+    assert (tmp_path / "run" / "summary.json").is_file()
+
+
+def test_an_outcome_needs_no_memory_for_rows() -> None:
+    column = rk.Column.prisms(1, half_width=0.4, half_height=1.6)
+    long = rk.Record(np.sin(np.arange(500_000) * 0.02) * 0.5, 0.01)
+    assert rk.simulate(column, long, wanted="outcome", eta=0.9).outcome == "no-uplift"
+    with pytest.raises(rk.SceneError, match="too many for the memory"):
+        rk.simulate(column, long, eta=0.9)

@@ -420,3 +420,12 @@ def test_an_argument_that_is_fixed_is_named() -> None:
         rk.trust(rk.Scene(COLUMN), rows=True)  # type: ignore[call-arg]
     with pytest.raises(TypeError, match="text is of int"):
         rk.Scene.from_toml(5)  # type: ignore[arg-type]
+
+
+def test_motions_with_arrays_compare() -> None:
+    def motion(last: float) -> rk.Motion:
+        return rk.Motion(kind="record", accel=np.array([0.0, 1.0, last]), dt=0.01)
+
+    assert motion(2.0) == motion(2.0) and motion(2.0) != motion(3.0)
+    assert motion(2.0) == {"kind": "record", "accel": [0.0, 1.0, 2.0], "dt": 0.01}
+    assert motion(2.0) != "record"

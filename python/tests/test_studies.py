@@ -771,3 +771,18 @@ def test_a_table_set_anew_is_checked_as_the_first(tmp_path: Path) -> None:
     # Beside a stack that does not stand by itself.
     rk.Study(table.assign(peak_2=table.peak_2.where(table["index"] != 2, np.inf))).plot()
     plt.close("all")
+
+
+def test_levels_that_differ_by_rounding_are_one_stripe() -> None:
+    column = rk.Column.prisms(1, half_width=0.4, half_height=1.6)
+
+    def table(seeds: range, levels: object) -> pd.DataFrame:
+        return rk.ida(column, rk.synthetic(seeds, frequency=1.5, duration=5.0), "pgv", levels, eta=0.9, trust=False).table
+
+    whole = pd.concat([table(range(3), np.linspace(0.1, 1.5, 15)), table(range(3, 6), [round(0.1 * k, 1) for k in range(1, 16)])])
+    whole = whole.drop(columns="index")
+    assert whole.pgv.nunique() > 15
+    studies = [rk.Study(own, "pgv") for own in (whole, whole.assign(pgv=whole.pgv.round(9)))]
+    found = [own.fragility("overturned", replicates=0) for own in studies]
+    assert [len(own.counts) for own in found] == [15, 15] and found[0].counts.runs.tolist() == found[1].counts.runs.tolist()
+    assert studies[0].stripes.runs.tolist() == [6] * 15

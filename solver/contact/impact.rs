@@ -2,7 +2,7 @@
 
 use super::assert_of;
 use super::decision::Decision;
-use super::restitution::{Restitution, rebounded};
+use super::restitution::{Rebound, rebounded};
 use super::search::{ContactProblem, Found};
 use super::state_at_event::{
     Answer, Mechanism, ROUNDING, SingularMass, StateAtEvent, accelerate, chosen, may_choose, project, sizes,
@@ -83,10 +83,10 @@ fn impact_at<S: Size>(
     let is_striking = |&i: &usize| f64::from(states[i].sign()) * relative(omega, i) < 0.0;
     let striking = closing.iter().copied().filter(is_striking);
     let rebound = rebounded(mechanism, &plastic, striking, &free, law.kappa, energy_before);
-    let is_without_restitution = matches!(rebound, Restitution::LeftOut);
+    let is_without_restitution = matches!(rebound, Rebound::LeftOut);
     let (mut rates, rebounds) = match rebound {
-        Restitution::Rates(rates) => (rates, true),
-        Restitution::None | Restitution::LeftOut => (plastic.angular, false),
+        Rebound::Rates(rates) => (rates, true),
+        Rebound::Plastic | Rebound::LeftOut => (plastic.angular, false),
     };
     // Impulses are those of the impact: the projection that ends a hop has others, whose ratio is that of the lengths of a block.
     let impulses = law.is_recorded.then(|| {

@@ -8,9 +8,9 @@ use crate::numerics::per_block::Size;
 pub(crate) const ENERGY_ROUNDING: f64 = 1e-12;
 
 /// What restitution does at an impact.
-pub(super) enum Restitution<S: Size> {
+pub(super) enum Rebound<S: Size> {
     /// Plastic rates stand: no interface that closed opens again, or all factors are one.
-    None,
+    Plastic,
     /// Restitution is left out: it would close an interface that opens, gain energy, or has no solution.
     LeftOut,
     /// The blocks' rates afterwards.
@@ -25,7 +25,7 @@ pub(super) fn rebounded<S: Size>(
     free: &[bool],
     kappa: &[f64],
     energy_before: f64,
-) -> Restitution<S> {
+) -> Rebound<S> {
     let Mechanism { states, posture, .. } = mechanism;
     let (mut rebounding, mut count) = (posture.size.list(0), 0);
     for interface in striking.filter(|&i| states[i].is_open()) {
@@ -34,14 +34,14 @@ pub(super) fn rebounded<S: Size>(
     }
     let rebounding = &rebounding[..count];
     if rebounding.iter().all(|&interface| kappa[interface] == 1.0) {
-        return Restitution::None;
+        return Rebound::Plastic;
     }
     let effect = UnitImpulses::new(mechanism, rebounding);
     let mut change = posture.size.list(0.0);
     for (change, &interface) in change.iter_mut().zip(rebounding) {
         *change = (kappa[interface] - 1.0) * relative(&plastic.angular, interface);
     }
-    let Some(impulses) = effect.impulses(change) else { return Restitution::LeftOut };
+    let Some(impulses) = effect.impulses(change) else { return Rebound::LeftOut };
     let mut rates = posture.link_rates(&plastic.angular);
     for (index, impulse) in impulses[..count].iter().enumerate() {
         rates.iter_mut().zip(effect.row(index)).for_each(|(rate, share)| *rate += share * impulse);
@@ -59,7 +59,7 @@ pub(super) fn rebounded<S: Size>(
     };
     let energy = posture.kinetic_energy(&posture.linear(&rates), &rebound);
     let gains = energy > energy_before * (1.0 + ENERGY_ROUNDING);
-    if chosen(free).any(closes) || gains { Restitution::LeftOut } else { Restitution::Rates(rebound) }
+    if chosen(free).any(closes) || gains { Rebound::LeftOut } else { Rebound::Rates(rebound) }
 }
 
 /// What unit moment impulses at some interfaces do: one at a time, opposite on the blocks above and below.

@@ -111,7 +111,9 @@ pub enum IntegrateError {
         time: f64,
     },
     /// The tolerance cannot be met with steps that still advance the time.
-    #[error("at t = {time} s: the step has fallen to {step:e} s; loosen rtol and atol")]
+    #[error(
+        "at t = {time} s: the step has fallen to {step:e} s; loosen rtol and atol, and give angles and rates that stay in the range of numbers"
+    )]
     StepTooSmall {
         /// `[s]`
         time: f64,

@@ -1,4 +1,4 @@
-//! One free angle on a ground that moves, in closed form: the equation of one block, for steps from sample to sample of a record.
+//! The equation of motion of one free angle on a moving ground, as a few coefficients: that of one block, for steps from sample to sample of a record.
 
 use super::dynamics::{Dynamics, Ground};
 use crate::numerics::ode::one_angle::Weights;

@@ -101,7 +101,16 @@ const NO_SLOPE: f64 = 1e-7;
 /// assert!((curve.median() - 1.0).abs() < 1e-12);
 /// assert!((curve.dispersion() - 2f64.ln() / 0.674_489_750_196_081_7).abs() < 1e-12);
 /// ```
+///
+/// # Panics
+/// If a level is not a finite number above zero, or more runs reach the state than there are.
 pub fn fit(trials: &[Trial]) -> Maximum {
+    let is_sound =
+        |trial: &Trial| trial.level > 0.0 && trial.level.is_finite() && (0.0..=trial.runs).contains(&trial.reached);
+    assert!(
+        trials.iter().all(is_sound),
+        "levels must be finite and above zero, and no more runs reach the state than there are"
+    );
     let extreme = |found: fn(&Trial) -> bool, pick: fn(f64, f64) -> f64| {
         trials.iter().filter(|trial| found(trial)).map(|trial| trial.level).reduce(pick)
     };

@@ -54,7 +54,7 @@ pub fn stripes(runs: &[Observation]) -> Vec<Stripe> {
 }
 
 /// Smallest of the values such that at least `share` of all values do not exceed it: the inverse of the empirical distribution.
-/// Nothing is interpolated, so that values may be infinite. `NaN` without values.
+/// Nothing is interpolated, so that values may be infinite. `share` is from 0 to 1. `NaN` without values.
 ///
 /// ```
 /// use rocking::studies::fractile;

@@ -81,7 +81,8 @@ impl Change {
         Some(changed)
     }
 
-    /// Whether the change is no larger than the errors of a run at a good tolerance: a tolerance, or the smaller change of the input.
+    /// Whether the companion shows the errors of the solver: that with the tighter tolerance, and those whose input is changed by [`SMALL_CHANGE`]. The others
+    /// show the errors of the input.
     pub(super) fn is_small(self) -> bool {
         self.size().is_none_or(|size| size == SMALL_CHANGE)
     }

@@ -73,7 +73,7 @@ mod tests {
         let mut changes = changes.into_inner().expect("no panic");
         changes.sort_by(f64::total_cmp);
         let expected = (-12..=12).filter(|place| *place != 0).map(|place| f64::from(place) * 1e-6 / 13.0);
-        // An amplitude and a width of one are known to 1e-16.
+        // `1 + change` is rounded to 1e-16, twice.
         assert!(
             changes.iter().zip(expected).all(|(change, expected)| (change - expected).abs() < 3e-16),
             "{changes:?}"

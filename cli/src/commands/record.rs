@@ -235,7 +235,7 @@ fn text_of<S: Serializer>(path: &Path, to: S) -> Result<S::Ok, S::Error> {
 pub struct Spectral {
     /// `[s]`
     pub period: f64,
-    /// Ratio of the critical damping.
+    /// Damping ratio, dimensionless.
     pub damping: f64,
     /// Pseudo-spectral acceleration `[m/s²]`.
     pub sa: f64,

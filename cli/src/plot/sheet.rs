@@ -95,7 +95,7 @@ impl Panel {
         [self.place_x(x), self.frame.bottom() - self.frame.height * up]
     }
 
-    /// Position of a value along the axis to the right `[px]`.
+    /// Position of a value along the horizontal axis `[px]`.
     pub fn place_x(&self, x: f64) -> f64 {
         self.frame.left + self.frame.width * self.x.share(x)
     }
@@ -203,7 +203,7 @@ impl Sheet {
         self.words_upwards(at, &axis.label, style::LABEL, Anchor::Middle);
     }
 
-    /// The label of the axis to the right, below the numbers. Returns the lower end of the label `[px]`.
+    /// The label of the horizontal axis, below the numbers. Returns the lower end of the label `[px]`.
     pub fn label_below(&mut self, panel: &Panel) -> f64 {
         let at = [panel.frame.left + 0.5 * panel.frame.width, panel.frame.bottom() + 38.0];
         self.words(at, &panel.x.label, style::LABEL, Anchor::Middle);

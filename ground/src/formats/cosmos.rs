@@ -50,12 +50,12 @@ const COLUMNS: FixedWidth = FixedWidth(10);
 /// Whether these are the lines of a COSMOS file.
 pub fn is_one(lines: &[&str]) -> bool {
     let mut first = lines.iter().filter(|line| !line.trim().is_empty()).take(2);
-    first.any(|line| title(line))
+    first.any(|line| begins_channel(line))
         || lines.iter().take(60).any(|line| line.to_ascii_lowercase().contains("integer-header values follow"))
 }
 
 /// Whether a line begins a channel.
-fn title(line: &str) -> bool {
+fn begins_channel(line: &str) -> bool {
     line.to_ascii_lowercase().contains("(format v")
 }
 
@@ -122,7 +122,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let mut file = RecordFile::of(Format::Cosmos, unit, scale, dt, samples);
     let peak = reals.get(PEAK).filter(|peak| **peak != UNKNOWN);
     let peak = channel.find("real-header").zip(peak);
-    let peak = peak.map(|(index, peak)| StatedPeak { line: index + 1, size: peak * scale, rounding: 0.0 });
+    let peak = peak.map(|(index, peak)| StatedPeak { line: index + 1, size: peak * scale, half_digit: 0.0 });
     file.compare_peak(peak, PEAK_BOUNDS, options.lenient)?;
     let component = match (names[chosen].1.as_str(), integers.get(AZIMUTH)) {
         ("", Some(400.0)) => "Up".into(),
@@ -139,7 +139,7 @@ fn channels<'t>(lines: &'t [&'t str]) -> (Vec<Channel<'t>>, Vec<usize>) {
     let (mut channels, mut others) = (Vec::new(), Vec::new());
     let mut begin = 0;
     for (index, line) in lines.iter().enumerate() {
-        if title(line) {
+        if begins_channel(line) {
             begin = index;
         } else if is_end(line) {
             begin = index + 1;
@@ -147,7 +147,7 @@ fn channels<'t>(lines: &'t [&'t str]) -> (Vec<Channel<'t>>, Vec<usize>) {
         }
         let Some(quantity) = announces(line) else { continue };
         if quantity.starts_with("acc") {
-            let ends = |line: &&str| is_end(line) || title(line) || announces(line).is_some();
+            let ends = |line: &&str| is_end(line) || begins_channel(line) || announces(line).is_some();
             let end = lines[index + 1..].iter().position(ends).map_or(lines.len(), |after| index + 1 + after);
             channels.push(Channel { lines, begin, announced: index, end });
             begin = index + 1;

@@ -190,7 +190,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
         let rest = after(line, "peak acceleration")?.trim_start().trim_start_matches('=');
         let unit = rest.split_whitespace().nth(1).and_then(AccelerationUnit::parse)?;
         let size = leading_number(rest)? * unit.in_si(options.gravity);
-        Some(StatedPeak { line: header + index + 1, size, rounding: 0.0 })
+        Some(StatedPeak { line: header + index + 1, size, half_digit: 0.0 })
     });
     file.compare_peak(peak, PEAK, options.lenient)?;
     let (station, component) = (channel.station(), names[chosen].1.clone());

@@ -116,7 +116,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let mut file = RecordFile::of(Format::Dyna, unit, unit.in_si(options.gravity), dt, samples);
     let stated = header.entries.iter().find(|(_, key, _)| key.starts_with("PGA_")).and_then(|(line, key, value)| {
         let scale = AccelerationUnit::parse(&key["PGA_".len()..])?.in_si(options.gravity);
-        Some(StatedPeak { line: *line, size: leading_number(value)? * scale, rounding: rounding(value) * scale })
+        Some(StatedPeak { line: *line, size: leading_number(value)? * scale, half_digit: half_digit(value) * scale })
     });
     file.compare_peak(stated, PEAK, options.lenient)?;
     let code = header.find("STATION_CODE").or_else(|| header.find("STATION_ID")).map_or("", |(_, code)| code);
@@ -140,7 +140,7 @@ fn refuse_other_peak(header: &Header, lines: &[&str], remedy: &'static str) -> R
 }
 
 /// Half a unit of the last printed digit.
-fn rounding(value: &str) -> f64 {
+fn half_digit(value: &str) -> f64 {
     let decimals = value.split_once('.').map_or(0, |(_, rest)| rest.bytes().take_while(u8::is_ascii_digit).count());
     0.5 * 0.1_f64.powi(decimals as i32)
 }

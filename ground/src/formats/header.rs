@@ -97,6 +97,7 @@ pub fn tidy(text: &str) -> String {
 
 /// Text after the first `word`, which is given in lower case. The case in `line` does not matter.
 pub fn after<'t>(line: &'t str, word: &str) -> Option<&'t str> {
+    debug_assert_eq!(word, word.to_ascii_lowercase());
     // A change of the case of ASCII letters keeps the places of all bytes.
     let at = line.to_ascii_lowercase().find(word)?;
     Some(&line[at + word.len()..])
@@ -109,6 +110,7 @@ pub fn number_after(line: &str, key: &str) -> Option<f64> {
 
 /// The text after `key`, without the blanks, `=` and `:` before it. `key` is in capitals, and found at the start of a word only.
 pub fn place_after<'t>(line: &'t str, key: &str) -> Option<&'t str> {
+    debug_assert_eq!(key, key.to_ascii_uppercase());
     let upper = line.to_ascii_uppercase();
     let at = upper.match_indices(key).find(|(at, _)| !upper[..*at].ends_with(|c: char| c.is_ascii_alphanumeric()))?.0;
     Some(line[at + key.len()..].trim_start().trim_start_matches(['=', ':']).trim_start())

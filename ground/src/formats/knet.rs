@@ -154,7 +154,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     samples.values.iter_mut().for_each(|value| *value -= mean);
     let mut file = RecordFile::of(Format::KNet, unit, scale * unit.in_si(options.gravity), dt, samples);
     let peak = header.find(PEAK).and_then(|(line, value)| {
-        Some(StatedPeak { line, size: leading_number(value)? * unit.in_si(options.gravity), rounding: 0.0 })
+        Some(StatedPeak { line, size: leading_number(value)? * unit.in_si(options.gravity), half_digit: 0.0 })
     });
     file.compare_peak(peak, PEAK_BOUNDS, options.lenient)?;
     let component = header.find(DIRECTION).map(|(_, value)| direction(value)).unwrap_or_default();

@@ -53,11 +53,11 @@ pub(super) struct StatedPeak {
     pub line: usize,
     /// `[m/s²]`, of either sign.
     pub size: f64,
-    /// Half a unit of the last printed digit `[m/s²]`; zero where `PeakBounds` allow for rounding.
-    pub rounding: f64,
+    /// Half a unit of the last printed digit `[m/s²]`; zero where `PeakBounds` allow for it.
+    pub half_digit: f64,
 }
 
-/// Relative differences between the peak of the samples and the stated one, beyond `rounding`.
+/// Bounds of the relative difference between the peak of the samples and the stated one, less [`StatedPeak::half_digit`].
 pub(super) struct PeakBounds {
     /// Up to here it counts as rounding or slight processing, without a warning.
     pub rounding: f64,
@@ -132,11 +132,11 @@ impl RecordFile {
         lenient: bool,
     ) -> Result<(), RecordError> {
         let stated = stated.map(|stated| StatedPeak { size: stated.size.abs(), ..stated });
-        let Some(StatedPeak { line, size, rounding }) = stated.filter(|s| s.size > 0.0 && s.size.is_finite()) else {
+        let Some(StatedPeak { line, size, half_digit }) = stated.filter(|s| s.size > 0.0 && s.size.is_finite()) else {
             return Ok(());
         };
         let found = self.peak();
-        let difference = ((found - size).abs() - rounding) / found.max(size);
+        let difference = ((found - size).abs() - half_digit) / found.max(size);
         if difference > bounds.damage && !lenient {
             return Err(RecordError::Peak { line, stated: size, found });
         }

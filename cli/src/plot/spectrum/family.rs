@@ -12,7 +12,7 @@ pub const LEAST_RECORDS: usize = 3;
 /// Largest number of panels, one per record, that stay legible.
 const MOST_RECORD_PANELS: usize = 9;
 
-/// Keys of the size of a column, which a rocking spectrum has on its axis to the right.
+/// Keys of the size of a column, which a rocking spectrum has on its horizontal axis.
 const SIZES: [&str; 3] = ["size.p", "size.rocking_period", "size.R"];
 
 /// What the values of an axis are in the figure.
@@ -151,7 +151,7 @@ fn paired(axes: &[Axis], places: &[usize], rows: usize) -> Result<Family, NoSpec
     Ok(Family { x, is_joined, is_paired: true, titles: vec![String::new()], records: 1, roles })
 }
 
-/// The axis to the right, and the positions of its values. The frequency parameter `p` is drawn as its period `2π/p`.
+/// The horizontal axis, and the positions of its values. The frequency parameter `p` is drawn as its period `2π/p`.
 fn scale((key, values): &Axis) -> Result<(Scale, Vec<f64>), NoSpectrum> {
     let values = numbers(values).unwrap_or_default();
     if !values.iter().copied().all(is_drawn) || values.iter().all(|value| *value == values[0]) {
