@@ -303,7 +303,7 @@ mod tests {
     fn polynomials_are_integrated_exactly_up_to_the_order() {
         for (method, tableau) in methods() {
             let rounding = if tableau.order > 5 { 1e-12 } else { 1e-13 };
-            let (order, dense_order) = (tableau.order as usize, 3 + tableau.dense.len());
+            let (order, dense_order) = (tableau.order, 3 + tableau.dense.len());
             let (end, inside) = (power_error(tableau, order - 1).0, power_error(tableau, dense_order - 1).1);
             assert!(end < rounding && inside < rounding, "{method:?}: {end:e} {inside:e}");
         }
