@@ -702,6 +702,8 @@ fn names_and_values_above_a_column_are_its_header() {
         "Station: XYZ\nEvent: Somewhere\nDT: 0.01\nUnits: cm/s^2\n",
         "Units = cm/s2\nDT = 0.01\nStation: XYZ\n",
         "Station: XYZ\nUnit: cm/s/s\nDT: 0.01 s\n",
+        "The Northridge earthquake\nStation: XYZ\nDT: 0.01\nUnits: cm/s^2\n",
+        "Station: XYZ\nDT: 0.01\nUnits: cm/s^2\nAcceleration\n",
     ] {
         let file = RecordFile::read(format!("{header}{numbers}").as_bytes(), &options());
         let file = file.unwrap_or_else(|error| panic!("{header}: {error}"));

@@ -51,12 +51,15 @@ impl Rows {
             .filter(|(_, line)| words(line).next().is_some())
             .collect();
         let first = first_row(&body)?;
-        // The nearest line of text above the numbers has the headings; `DT= 0.01` may stand between, and `Units: cm/s2` unless it has a name for each column.
+        // The nearest line of text above the numbers has the headings; `DT= 0.01` may stand between. Of a header with lines such as `Units: cm/s2`, only a line with a
+        // name for each column has them.
         let columns = body.get(first).map_or(0, |(_, row)| words(row).count());
-        let states = |text: &str| {
-            statement::interval(text).is_some() || statement::is_pair(text) && headings(text, None).len() != columns
-        };
-        let last_text = body[..first].iter().rposition(|(_, text)| !states(text));
+        let names_columns = |text: &str| headings(text, None).len() == columns;
+        let is_pair = |text: &str| statement::is_pair(text) && !names_columns(text);
+        let is_statement = |text: &str| statement::interval(text).is_some() || is_pair(text);
+        let last_text = body[..first].iter().rposition(|(_, text)| !is_statement(text));
+        let has_pairs = |place: usize| body[place + 1..first].iter().any(|(_, text)| is_pair(text));
+        let last_text = last_text.filter(|place| !has_pairs(*place) || names_columns(body[*place].1));
         let above = last_text.and_then(|place| Some(body[place.checked_sub(1)?].1));
         let headings = last_text.map(|place| (body[place].0, headings(body[place].1, above)));
         let has_all = |(_, names): &(usize, Vec<Heading>)| names.iter().any(|heading| is_all(&heading.name));
