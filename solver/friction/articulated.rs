@@ -72,7 +72,8 @@ impl Motions {
 }
 
 impl Articulation {
-    /// Eliminates the coordinates of these states, with these coefficients of kinetic friction. `None` if the rows are singular.
+    /// Eliminates the coordinates of these states, with these coefficients of kinetic friction. `None` if a pivot is exactly zero: the rows
+    /// count as singular.
     pub fn new(chain: &Chain, joints: &[Joint], kinetic: &[f64]) -> Option<Articulation> {
         let blocks = chain.len();
         let mut bodies = Vec::with_capacity(blocks);
