@@ -375,7 +375,7 @@ pub struct Response {
     pub peak_theta: Vec<f64>,
     /// Time spent in each mode `[s]`; a pattern and its mirror image are one mode. `rest` counts as a mode, in which a column that has come to
     /// rest for good stays until `t_end`. Empty where nothing but the outcome of a run without friction is requested.
-    pub time_in_mode: BTreeMap<String, f64>,
+    pub time_in_mode: BTreeMap<ModeName, f64>,
     /// Largest `|T| / N` per interface, a fall included, dimensionless; infinite if a tangential force acts without compression.
     /// Empty if the scene's options ask for no forces.
     #[serde(deserialize_with = "numbers")]
@@ -464,8 +464,8 @@ impl Response {
     }
 
     /// Times in the modes `[s]`, the longest first.
-    pub fn modes_by_time(&self) -> Vec<(&str, f64)> {
-        let mut modes: Vec<_> = self.time_in_mode.iter().map(|(mode, time)| (mode.as_str(), *time)).collect();
+    pub fn modes_by_time(&self) -> Vec<(ModeName, f64)> {
+        let mut modes: Vec<_> = self.time_in_mode.iter().map(|(mode, time)| (*mode, *time)).collect();
         modes.sort_by(|a, b| b.1.total_cmp(&a.1));
         modes
     }
@@ -587,28 +587,35 @@ fn four_digits(value: f64) -> String {
     format!("{value:.*}", decimals as usize)
 }
 
-/// The name of a mode: its label, `rest` where nothing moves.
+/// The name of a mode. In order, `rest` comes last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct ModeName(Option<ModeLabel>);
+pub enum ModeName {
+    /// The label `k.j` of a rocking mode.
+    Mode(ModeLabel),
+    /// `rest`: nothing rocks.
+    Rest,
+}
 
 impl ModeName {
-    /// At rest.
-    pub const REST: ModeName = ModeName(None);
+    /// The mode of a name: `1.5`, `rest`; `None` for other texts.
+    pub fn parse(text: &str) -> Option<ModeName> {
+        if text == "rest" { Some(ModeName::Rest) } else { ModeLabel::parse(text).map(ModeName::Mode) }
+    }
 
     /// The name of a pattern's mode; mirror images share it.
     ///
     /// # Panics
     /// As [`Pattern::mode`], for patterns of more interfaces than any column has.
     pub fn of(pattern: &Pattern) -> ModeName {
-        ModeName(pattern.mode().map(|(label, _)| label))
+        pattern.mode().map_or(ModeName::Rest, |(label, _)| ModeName::Mode(label))
     }
 }
 
 impl fmt::Display for ModeName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            Some(label) => label.fmt(f),
-            None => f.write_str("rest"),
+        match self {
+            ModeName::Mode(label) => label.fmt(f),
+            ModeName::Rest => f.write_str("rest"),
         }
     }
 }
@@ -621,20 +628,13 @@ impl Serialize for ModeName {
 
 impl<'de> Deserialize<'de> for ModeName {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<ModeName, D::Error> {
-        match &*String::deserialize(from)? {
-            "rest" => Ok(ModeName::REST),
-            text => ModeLabel::parse(text)
-                .map(|label| ModeName(Some(label)))
-                .ok_or_else(|| D::Error::custom(format!("`{text}` is no mode"))),
-        }
+        let text = String::deserialize(from)?;
+        ModeName::parse(&text).ok_or_else(|| D::Error::custom(format!("`{text}` is no mode")))
     }
 }
 
 impl PartialEq<&str> for ModeName {
     fn eq(&self, other: &&str) -> bool {
-        match self.0 {
-            Some(label) => ModeLabel::parse(other) == Some(label),
-            None => *other == "rest",
-        }
+        ModeName::parse(other) == Some(*self)
     }
 }

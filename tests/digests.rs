@@ -9,6 +9,7 @@ use rocking::scene_file::{Setting, Template};
 use rocking::sweep::{Ask, Axis, Combine, Sweep};
 use rocking::{DynamicsSource, Method, Response, Scene, simulate};
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -86,8 +87,11 @@ fn digests(response: &Response) -> [u64; 2] {
     own.numbers(&response.peak_theta);
     own.numbers(&response.friction_demand);
     own.numbers(&response.min_normal_force);
-    for (mode, time) in &response.time_in_mode {
-        own.text(mode);
+    // In the order of their texts, as these digests have always had them.
+    let times: BTreeMap<String, &f64> =
+        response.time_in_mode.iter().map(|(mode, time)| (mode.to_string(), time)).collect();
+    for (mode, time) in times {
+        own.text(&mode);
         own.numbers([time]);
     }
     for separation in &response.separations {

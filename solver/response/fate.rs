@@ -1,6 +1,6 @@
 //! The outcome of a run, in one word.
 
-use super::{Response, StopReason};
+use super::{ModeName, Response, StopReason};
 use crate::names::named;
 
 /// The outcome of a run.
@@ -37,7 +37,7 @@ named!(
 impl Fate {
     /// The outcome of a run.
     pub fn of(response: &Response) -> Fate {
-        let rocked = || response.time_in_mode.iter().any(|(mode, time)| mode != "rest" && *time > 0.0);
+        let rocked = || response.time_in_mode.iter().any(|(mode, time)| *mode != ModeName::Rest && *time > 0.0);
         match (response.status, response.work.phases > 0) {
             (status, _) if status.overturns() => Fate::Overturns,
             (StopReason::Collapsed, _) => Fate::Collapses,

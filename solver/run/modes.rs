@@ -44,7 +44,7 @@ struct Basis {
 struct Entered {
     pattern: Pattern,
     /// Name of its mode.
-    name: String,
+    name: ModeName,
     /// `None` after the phase was dropped; it is built again when the pattern is entered.
     phase: Option<Phase>,
     /// Whether it runs on other equations than those that the options ask for.
@@ -146,7 +146,7 @@ impl Modes {
         let mode = first.or(second).or_else(|| Mode::generic(column, pattern)).expect("the column is not at rest");
         Entered {
             pattern: pattern.clone(),
-            name: ModeName::of(pattern).to_string(),
+            name: ModeName::of(pattern),
             phase: Some(Phase::new(&mode, problem)),
             is_other: !is_expected,
             is_entered: false,
@@ -154,9 +154,9 @@ impl Modes {
     }
 
     /// Place and name of the modes that the present run has entered.
-    pub fn entered(&self) -> impl Iterator<Item = (usize, &str)> {
+    pub fn entered(&self) -> impl Iterator<Item = (usize, ModeName)> {
         let entered = self.entered.iter().enumerate().filter(|(_, entered)| entered.is_entered);
-        entered.map(|(index, entered)| (index + 1, entered.name.as_str()))
+        entered.map(|(index, entered)| (index + 1, entered.name))
     }
 
     /// Whether the present run has entered a mode on other equations than those that the options ask for.

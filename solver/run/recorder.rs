@@ -249,12 +249,12 @@ impl Recorder {
         if problem.is_recorded() {
             let time = |mode: usize| self.times.get(mode).copied().unwrap_or(0.0);
             for (mode, name) in modes.entered() {
-                *time_in_mode.entry(name.to_string()).or_insert(0.0) += time(mode);
+                *time_in_mode.entry(name).or_insert(0.0) += time(mode);
             }
             let for_good = if status == StopReason::AtRest { problem.scene.options.t_end - last.t } else { 0.0 };
             let at_rest = time(Modes::REST) + for_good;
             if at_rest > 0.0 {
-                time_in_mode.insert(ModeName::REST.to_string(), at_rest);
+                time_in_mode.insert(ModeName::Rest, at_rest);
             }
         }
         let end = match status {

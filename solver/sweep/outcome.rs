@@ -70,7 +70,7 @@ impl Outcome {
         // A column that no event stops stays in the mode in which it begins.
         let last_mode = || match response.events.last() {
             Some(event) => event.mode.to_string(),
-            None => response.time_in_mode.keys().next().cloned().unwrap_or_else(|| ModeName::REST.to_string()),
+            None => response.modes_by_time().first().map_or(ModeName::Rest, |(mode, _)| *mode).to_string(),
         };
         Outcome {
             fate: Fate::of(response),

@@ -3,7 +3,7 @@
 use super::{GRAVITY, run, scene, slide};
 use approx::assert_relative_eq;
 use rocking::ground::{Motion, Record};
-use rocking::{Block, EventKind, Friction, Method, Response, StopReason};
+use rocking::{Block, EventKind, Friction, Method, ModeName, Response, StopReason};
 use std::f64::consts::TAU;
 
 /// Newmark's block under a rectangular pulse `A g` for `t_1`, at once or after a rest: slides by `½ A g t_1² (A/μ - 1)`, stops `A t_1/μ` after its start.
@@ -392,7 +392,7 @@ fn a_block_on_the_verge_of_turning_slides_with_its_face() {
         let response = run(&scene);
         let started = response.events[0].states_after.as_ref().expect("friction");
         assert_eq!(started.to_string(), "(0<)", "{t}");
-        assert!(!response.time_in_mode.keys().any(|mode| mode != "rest"), "{:?}", response.time_in_mode);
+        assert!(!response.time_in_mode.keys().any(|mode| *mode != ModeName::Rest), "{:?}", response.time_in_mode);
         let expected = 0.5 * 0.75 * GRAVITY * 0.0625 * (0.75 / t - 1.0);
         assert_relative_eq!(slide(&response, 0).abs(), expected, max_relative = 1e-12);
     }

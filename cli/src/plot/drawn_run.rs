@@ -34,7 +34,7 @@ pub struct Stretch {
     /// `[s]`
     pub to: f64,
     /// `k.j`, or `rest`.
-    pub mode: String,
+    pub mode: ModeName,
     /// Whether its pattern is the mirror image of the labelled one.
     pub mirrored: bool,
 }
@@ -162,7 +162,7 @@ impl DrawnRun<'_> {
         let named = |pattern: &Pattern, from: f64| Stretch {
             from,
             to: end,
-            mode: ModeName::of(pattern).to_string(),
+            mode: ModeName::of(pattern),
             mirrored: pattern.is_mirrored(),
         };
         let first = self.results.response.events.first().map(|event| &event.before);
@@ -177,7 +177,7 @@ impl DrawnRun<'_> {
             pattern = own;
             let next = named(pattern, knot.t);
             let current = stretches.last_mut().expect("there is a first");
-            if (&current.mode, current.mirrored) != (&next.mode, next.mirrored) {
+            if (current.mode, current.mirrored) != (next.mode, next.mirrored) {
                 current.to = next.from;
                 stretches.push(next);
             }

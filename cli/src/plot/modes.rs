@@ -10,7 +10,7 @@ use crate::number::counted;
 use crate::posture::{groups, posture};
 use rocking::kinematics::{Outline, outlines};
 use rocking::pattern::{ModeLabel, Pattern, modes};
-use rocking::{Column, DEFAULT_GRAVITY, Response};
+use rocking::{Column, DEFAULT_GRAVITY, ModeName, Response};
 
 /// The largest column of which all modes are drawn: 121 modes on fifteen lines can still be read on one page, 364 cannot.
 pub const LARGEST: usize = 5;
@@ -154,9 +154,12 @@ fn legend(sheet: &mut Sheet, [x, top]: Point, blocks: usize, tilt_deg: f64) {
     entry(sheet, 0.0, "Mirror images are the same modes.");
 }
 
-/// The name of the mode `rest` for readers. Where blocks slide, the mode says only that none of them rocks.
-pub fn rest(response: &Response) -> &'static str {
-    if response.motion_at_contacts().is_some() { "no rocking" } else { "rest" }
+/// The name of a mode for readers. Where blocks slide, `rest` says only that none of them rocks.
+pub fn called(mode: ModeName, response: &Response) -> String {
+    match mode {
+        ModeName::Rest if response.motion_at_contacts().is_some() => "no rocking".into(),
+        mode => mode.to_string(),
+    }
 }
 
 /// Height of a column in a sketch `[px]`.

@@ -4,12 +4,12 @@ use super::axis::{Axis, brief, subscript};
 use super::band;
 use super::curve::{Frame, Point};
 use super::drawn_run::{DrawnRun, FALL, Knot, Stretch, output_times, over_time};
-use super::modes::rest;
+use super::modes::called;
 use super::paper::Angles;
 use super::sheet::{self, Anchor, Figure, Key, Panel, Sheet, corners};
 use super::style::{self, Stroke};
 use crate::number::{counted, percent};
-use rocking::{Sample, StopReason};
+use rocking::{ModeName, Sample, StopReason};
 
 /// Heights `[px]`.
 const GROUND: f64 = 110.0;
@@ -197,10 +197,10 @@ fn draw_band(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, band: &Frame) 
         let whole = |stretches: &[Stretch]| Stretch { to: stretches[stretches.len() - 1].to, ..stretches[0].clone() };
         let areas: Vec<_> = of_mode.map(|stretches| corners(&part(band, &whole(stretches)))).collect();
         if !areas.is_empty() {
-            sheet.areas(areas, mode_fill(mode, rank));
+            sheet.areas(areas, mode_fill(*mode, rank));
         }
     }
-    let moving = drawn.iter().filter(|stretch| stretch.mode != "rest");
+    let moving = drawn.iter().filter(|stretch| stretch.mode != ModeName::Rest);
     let edge = |stretch: &Stretch| {
         let top = if stretch.mirrored { band.bottom() - EDGE } else { band.top };
         corners(&Frame { top, height: EDGE, ..part(band, stretch) })
@@ -208,7 +208,7 @@ fn draw_band(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, band: &Frame) 
     sheet.areas(moving.map(edge).collect(), style::INK);
     for same in drawn.chunk_by(|a, b| a.mode == b.mode) {
         let (from, to) = (same[0].from, same[same.len() - 1].to);
-        let label = if same[0].mode == "rest" { rest(&motion.results.response) } else { &same[0].mode };
+        let label = &called(same[0].mode, &motion.results.response);
         if to - from > sheet::text_width(label, style::NOTE) + 2.0 {
             let at = [0.5 * (from + to), band.top + 0.5 * BAND + 4.5];
             sheet.words(at, label, style::NOTE, Anchor::Middle);
@@ -234,7 +234,7 @@ fn on_columns(stretches: &[Stretch], panel: &Panel) -> Vec<Stretch> {
         let here = stretches[next..].iter().take_while(|stretch| panel.place_x(stretch.from) < to);
         let longest = here.max_by(|a, b| inside(a).total_cmp(&inside(b)));
         if let Some(longest) = longest.filter(|stretch| inside(stretch) > 0.0) {
-            let same = |last: &&mut Stretch| (&last.mode, last.mirrored) == (&longest.mode, longest.mirrored);
+            let same = |last: &&mut Stretch| (last.mode, last.mirrored) == (longest.mode, longest.mirrored);
             match drawn.last_mut().filter(same).filter(|last| last.to == from) {
                 Some(last) => last.to = to,
                 None => drawn.push(Stretch { from, to, ..longest.clone() }),
@@ -246,14 +246,14 @@ fn on_columns(stretches: &[Stretch], panel: &Panel) -> Vec<Stretch> {
 }
 
 /// The modes of a run, those that last longest first; `rest` last.
-fn modes(motion: &DrawnRun) -> Vec<String> {
-    let (resting, moving): (Vec<_>, Vec<_>) =
-        motion.results.response.modes_by_time().into_iter().partition(|(mode, _)| *mode == "rest");
-    moving.into_iter().chain(resting).map(|(mode, _)| mode.to_string()).collect()
+fn modes(motion: &DrawnRun) -> Vec<ModeName> {
+    let mut modes = motion.results.response.modes_by_time();
+    modes.sort_by_key(|(mode, _)| *mode == ModeName::Rest);
+    modes.into_iter().map(|(mode, _)| mode).collect()
 }
 
-fn mode_fill(mode: &str, rank: usize) -> &'static str {
-    if mode == "rest" { style::REST_FILL } else { style::fill(rank) }
+fn mode_fill(mode: ModeName, rank: usize) -> &'static str {
+    if mode == ModeName::Rest { style::REST_FILL } else { style::fill(rank) }
 }
 
 /// Largest number of modes without a fill of their own that the legend names.
@@ -263,21 +263,20 @@ fn modes_legend(sheet: &mut Sheet, motion: &DrawnRun, top: f64) -> f64 {
     let times = &motion.results.response.time_in_mode;
     let total = times.values().sum::<f64>().max(f64::MIN_POSITIVE);
     let share = |time: f64| percent(time / total);
-    let modes = modes(motion);
-    let (resting, moving): (Vec<&String>, Vec<&String>) = modes.iter().partition(|mode| *mode == "rest");
+    let (resting, moving): (Vec<_>, Vec<_>) = modes(motion).into_iter().partition(|mode| *mode == ModeName::Rest);
     let mut entries = vec![(Key::None, "Time in mode:".to_string())];
     for (rank, mode) in moving.iter().enumerate().take(style::NAMED_MODES) {
-        entries.push((Key::Fill(style::fill(rank)), format!("{mode}: {}", share(times[*mode]))));
+        entries.push((Key::Fill(style::fill(rank)), format!("{mode}: {}", share(times[mode]))));
     }
     if let Some(mode) = resting.first() {
         entries.push((
             Key::Fill(style::REST_FILL),
-            format!("{}: {}", rest(&motion.results.response), share(times[*mode])),
+            format!("{}: {}", called(*mode, &motion.results.response), share(times[mode])),
         ));
     }
     let others = &moving[moving.len().min(style::NAMED_MODES)..];
     if !others.is_empty() {
-        let names: Vec<&str> = others.iter().take(LISTED).map(|mode| mode.as_str()).collect();
+        let names: Vec<String> = others.iter().take(LISTED).map(ModeName::to_string).collect();
         let more = if others.len() > LISTED { format!(" and {} more", others.len() - LISTED) } else { String::new() };
         entries.push((Key::Fill(style::OTHER_FILL), format!("others: {}{more}", names.join(", "))));
     }

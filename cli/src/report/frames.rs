@@ -6,7 +6,7 @@
 
 use crate::number::{fixed, significant};
 use crate::plot;
-use crate::plot::modes::{fill, rest};
+use crate::plot::modes::{called, fill};
 use crate::report::html::script;
 use crate::report::number;
 use crate::report::outcome::changed;
@@ -14,7 +14,7 @@ use rocking::Event;
 use rocking::column::Shape;
 use rocking::pattern::Pattern;
 use rocking::run_folder::Results;
-use rocking::{Block, Column, EventKind, StopReason};
+use rocking::{Block, Column, EventKind, ModeName, StopReason};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
@@ -288,7 +288,7 @@ fn head(results: &Results, patterns: &[&Pattern]) -> serde_json::Value {
     let events: Vec<_> = results.response.events.iter().map(event).collect();
     json!({
         "blocks": sizes, "round": round, "contact": contact, "gravity": column.gravity(), "fills": fills,
-        "patterns": patterns, "rest": rest(&results.response), "events": events, "angles": largest_shown(results),
+        "patterns": patterns, "rest": called(ModeName::Rest, &results.response), "events": events, "angles": largest_shown(results),
     })
 }
 

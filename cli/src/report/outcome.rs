@@ -1,15 +1,15 @@
 //! Outcome of a run: in a sentence, then key figures, peaks, impacts, time in each mode.
 
 use crate::number::counted;
-use crate::plot::modes::{rest, sketch};
+use crate::plot::modes::{called, sketch};
 use crate::report::number::{degrees, percent, significant};
 use crate::report::trust;
 use crate::report::validity::named;
 use crate::text::escape;
 use rocking::column::Shape;
-use rocking::pattern::{ModeLabel, Pattern};
+use rocking::pattern::Pattern;
 use rocking::run_folder::Results;
-use rocking::{Event, EventKind, Response, SlidingReport, StopReason};
+use rocking::{Event, EventKind, ModeName, Response, SlidingReport, StopReason};
 use std::fmt::Write as _;
 
 /// HTML of the outcome: the sentence with a sign, what is known of its trust, and where the blocks stayed.
@@ -230,7 +230,10 @@ pub fn tiles(results: &Results) -> String {
     tiles.push(("impacts", response.impacts.to_string(), other_events(&response.events)));
     let total: f64 = response.time_in_mode.values().sum();
     if let Some((mode, time)) = response.modes_by_time().first().copied().filter(|_| total > 0.0) {
-        let name = if mode == "rest" { rest(response).to_string() } else { format!("mode {}", escape(mode)) };
+        let name = match mode {
+            ModeName::Mode(label) => format!("mode {label}"),
+            ModeName::Rest => called(mode, response),
+        };
         tiles.push((
             "longest time in one state",
             name,
@@ -357,14 +360,14 @@ pub fn modes(results: &Results) -> String {
     let blocks = results.column.len();
     let total: f64 = results.response.time_in_mode.values().sum::<f64>().max(f64::MIN_POSITIVE);
     let modes = results.response.modes_by_time();
-    let row = |(mode, time): &(&str, f64)| {
-        let pattern = match *mode {
-            "rest" => Some(Pattern::rest(blocks)),
-            mode => ModeLabel::parse(mode).and_then(|label| label.pattern(blocks)),
+    let row = |(mode, time): &(ModeName, f64)| {
+        let pattern = match mode {
+            ModeName::Rest => Some(Pattern::rest(blocks)),
+            ModeName::Mode(label) => label.pattern(blocks),
         };
         let (drawing, signs) = pattern
             .map_or((String::new(), String::new()), |pattern| (sketch(&results.column, &pattern), typeset(&pattern)));
-        let name = if *mode == "rest" { rest(&results.response).to_string() } else { escape(mode) };
+        let name = called(*mode, &results.response);
         format!(
             "<li>{drawing}<span class=\"mode\"><strong>{name}</strong> <span class=\"note\">{signs}</span></span>{}\
              <span class=\"time\">{} s <span class=\"note\">{}</span></span></li>\n",
@@ -373,8 +376,9 @@ pub fn modes(results: &Results) -> String {
             percent(time / total)
         )
     };
-    let list =
-        |modes: &[(&str, f64)]| format!("<ul class=\"bars\">\n{}</ul>\n", modes.iter().map(row).collect::<String>());
+    let list = |modes: &[(ModeName, f64)]| {
+        format!("<ul class=\"bars\">\n{}</ul>\n", modes.iter().map(row).collect::<String>())
+    };
     let (shown, others) = modes.split_at(modes.len().min(MODES_SHOWN));
     let mut text = list(shown);
     if !others.is_empty() {

@@ -5,6 +5,7 @@ use crate::plot::output_times;
 use crate::report::html::definitions;
 use crate::report::number::{degrees, significant};
 use crate::text::{escape, shell_word};
+use rocking::ModeName;
 use rocking::run_folder::Results;
 
 /// The provenance of a run.
@@ -19,7 +20,7 @@ pub fn provenance(results: &Results) -> String {
         "generic" => "generic: hand-written, for any number of blocks".into(),
         _ => "supplied by the calling program".to_string(),
     };
-    let modes = response.time_in_mode.keys().filter(|mode| *mode != "rest").count();
+    let modes = response.time_in_mode.keys().filter(|mode| **mode != ModeName::Rest).count();
     let interval = output_times(&results.response.samples);
     let rows = [
         ("Version", format!("rocking {}", escape(&results.version))),

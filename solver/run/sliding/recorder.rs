@@ -75,7 +75,7 @@ pub struct SlidingRecorder<'p> {
     log: Log,
     /// Normal force above which a contact has a friction demand, per interface `[N]`.
     least_normal_force: PerBlock<f64>,
-    time_in_mode: BTreeMap<String, f64>,
+    time_in_mode: BTreeMap<ModeName, f64>,
     /// Times of the stretch so far from which a free interface counts as open on another side, with the interface and that side.
     sides: Vec<(f64, usize, Interface)>,
     /// [`Response::used_generic`] of some part in which everything sticks.
@@ -274,7 +274,7 @@ impl<'p> SlidingRecorder<'p> {
         let (now, end, size) = (&from.configuration, &until.configuration, self.column().size());
         let (mut pattern, mut since) = (now.pattern(), from.t);
         let mut add = |pattern: &Pattern, span: f64| {
-            *self.time_in_mode.entry(ModeName::of(pattern).to_string()).or_insert(0.0) += span;
+            *self.time_in_mode.entry(ModeName::of(pattern)).or_insert(0.0) += span;
         };
         self.sides.sort_by(|a, b| a.0.total_cmp(&b.0));
         for (t, interface, side) in self.sides.drain(..) {
