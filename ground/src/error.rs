@@ -80,8 +80,11 @@ pub enum RecordError {
     #[error("channel {channel} is not in the file; it has {known}")]
     NoChannel { channel: usize, known: String },
     /// Several columns may be the acceleration, or the requested one does not exist.
-    #[error("{}; choose one of {known} with `column`{}", no_column(column), wrapped(known))]
+    #[error("{}; choose one of {known} with `column`", no_column(column))]
     NoColumn { column: String, known: String },
+    /// The columns have no names, and none has the requested number.
+    #[error("{}; choose one of 1 to {columns} with `column`{WRAPPED}", no_column(column))]
+    NoNumberedColumn { column: String, columns: usize },
     /// Several columns have the requested name.
     #[error("several columns are called `{column}`; choose one by its number with `column`: {numbers}")]
     Namesakes { column: String, numbers: String },
@@ -158,11 +161,6 @@ fn header_end(first_row: Option<usize>) -> String {
         }
         None => "mend it, or skip the lines before the numbers with `skip_rows`".into(),
     }
-}
-
-/// The remedy for columns that have no names, but numbers.
-fn wrapped(known: &str) -> &'static str {
-    if known.starts_with("1 to ") { WRAPPED } else { "" }
 }
 
 fn no_column(column: &str) -> String {

@@ -25,6 +25,20 @@ pub struct Excitation {
 impl Excitation {
     /// Warnings, a sentence each: about the files of its records, what they are used for, and what lies before `t = 0`.
     pub fn warnings(&self) -> Vec<String> {
+        self.warnings_with(&|component| format!("the {component} record"))
+    }
+
+    /// As [`Excitation::warnings`], for a study in which this motion has a name: records without a file go by that name.
+    pub fn warnings_named(&self, name: &str) -> Vec<String> {
+        self.warnings_with(&|_| format!("record {name}"))
+    }
+
+    /// Warnings, in which records without a file go by a name made of their component, `horizontal` or `vertical`.
+    fn warnings_with(&self, without_file: &dyn Fn(&str) -> String) -> Vec<String> {
+        let called = |record: &Record, component: &str| match record.source().file.as_str() {
+            "" => without_file(component),
+            file => format!("record {file}"),
+        };
         let motions = [
             ("horizontal", Direction::Horizontal, &self.horizontal),
             ("vertical", Direction::Vertical, &self.vertical),
@@ -36,9 +50,13 @@ impl Excitation {
                 let own = record.warnings().iter().cloned().chain(misused(record, direction));
                 warnings.extend(own.map(|warning| format!("{}: {warning}", called(record, name))));
             }
-            warnings.extend(cut_at_start(name, motion));
+            let subject = match motion {
+                Motion::Record(record) => called(record, name),
+                _ => format!("the {name} ground motion"),
+            };
+            warnings.extend(cut_at_start(&subject, motion));
         }
-        warnings.extend(self.misaligned());
+        warnings.extend(self.misaligned(called));
         warnings
     }
 
@@ -50,7 +68,7 @@ impl Excitation {
     }
 
     /// The warning of components whose first samples are not simultaneous by the clock of the station.
-    fn misaligned(&self) -> Option<String> {
+    fn misaligned(&self, called: impl Fn(&Record, &str) -> String) -> Option<String> {
         let (Motion::Record(horizontal), Motion::Record(vertical)) =
             (self.horizontal.as_ref()?, self.vertical.as_ref()?)
         else {
@@ -127,12 +145,6 @@ impl Excitation {
     }
 }
 
-/// A record by the name of its file, or else by its component.
-fn called(record: &Record, component: &str) -> String {
-    let file = &record.source().file;
-    if file.is_empty() { format!("the {component} record") } else { format!("record {file}") }
-}
-
 /// The records of a motion.
 fn records(motion: &Motion) -> Vec<&Record> {
     match motion {
@@ -158,14 +170,14 @@ fn misused(record: &Record, direction: Direction) -> Option<String> {
 }
 
 /// The warning of a motion that begins before `t = 0`; a motion without end has none, as it must be cut somewhere.
-fn cut_at_start(name: &str, motion: &Motion) -> Option<String> {
+fn cut_at_start(subject: &str, motion: &Motion) -> Option<String> {
     let (begin, end) = (motion.moves_from(), motion.still_from()?);
     if begin >= 0.0 || begin == end {
         return None;
     }
     let lost = if end <= 0.0 { "all of it" } else { "what lies before" };
     Some(format!(
-        "the {name} ground motion is cut: it begins at t = {begin:.4} s, and runs begin at 0 s; {lost} is left out (give a later `start`)"
+        "{subject} is cut: it begins at t = {begin:.4} s, and runs begin at 0 s; {lost} is left out (give a later `start`)"
     ))
 }
 
@@ -224,6 +236,16 @@ mod tests {
             |start: f64| says(Motion::Record(Record::new(vec![0.0, 0.0, 1.0, 0.0], 1.0, start).expect("valid")));
         assert!(record(-1.0).is_empty() && record(-1.5).contains("begins at t = -0.5000 s"));
         assert_eq!(says(Motion::Record(Record::new(vec![0.0; 4], 1.0, -1.0).expect("valid"))), "");
+    }
+
+    #[test]
+    fn a_study_names_records_that_have_no_file() {
+        let record = Record::new(vec![0.0, 1.0, 0.0], 1.0, -1.5).expect("valid");
+        let of = |record: Record| Excitation { horizontal: Some(Motion::Record(record)), vertical: None };
+        let without_file = of(record.clone());
+        assert!(without_file.warnings()[0].starts_with("the horizontal record is cut: it begins at t = -1.5000 s"));
+        assert!(without_file.warnings_named("first")[0].starts_with("record first is cut: "));
+        assert!(of(record.named("quake.csv")).warnings_named("first")[0].starts_with("record quake.csv is cut: "));
     }
 
     #[test]

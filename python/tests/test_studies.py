@@ -593,7 +593,7 @@ def test_what_is_to_be_known_of_records_is_a_warning_of_studies_and_sweeps(tmp_p
     with pytest.warns(UserWarning, match="unit"):
         rk.sweep(scene, {"excitation.horizontal.scale": [1.0, 2.0]})
     # A record that begins before the run is cut there.
-    with pytest.warns(UserWarning, match="record cut: the horizontal ground motion is cut"):
+    with pytest.warns(UserWarning, match="record cut is cut: it begins at t"):
         rk.Ida(column, [rk.Record.synthetic(1, duration=6).starting_at(-3).named("cut")], "pgv", [0.3])
 
 

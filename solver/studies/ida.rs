@@ -193,12 +193,7 @@ impl Ida {
         let of = |record: &StudyRecord| {
             let [horizontal, vertical] =
                 [Some(&record.horizontal), record.vertical.as_ref()].map(|own| own.cloned().map(Motion::Record));
-            // Those about a file name it.
-            let named = |warning: String| match warning.starts_with("record ") {
-                true => warning,
-                false => format!("record {}: {warning}", record.name),
-            };
-            Excitation { horizontal, vertical }.warnings().into_iter().map(named).collect::<Vec<_>>()
+            Excitation { horizontal, vertical }.warnings_named(&record.name)
         };
         self.records.iter().flat_map(of).filter(|warning| seen.insert(warning.clone())).collect()
     }

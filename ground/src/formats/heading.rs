@@ -38,15 +38,19 @@ const ACCELERATIONS: [&str; 3] = ["accel", "acel", "beschl"];
 const ACCELERATION: &str = "acc";
 /// Whole names for acceleration.
 const SHORT_ACCELERATIONS: [&str; 2] = ["a", "ag"];
-/// Beginnings of words for velocity, displacement and force.
-const OTHERS: [&str; 10] = ["vel", "disp", "force", "geschw", "versch", "kraft", "vitesse", "dépl", "despl", "spost"];
+/// Beginnings of words for velocity and displacement.
+const OTHER_MOTIONS: [&str; 8] = ["vel", "disp", "geschw", "versch", "vitesse", "dépl", "despl", "spost"];
+/// Beginnings of words for force.
+const FORCES: [&str; 2] = ["force", "kraft"];
+
+fn begins(word: &str, beginnings: &[&str]) -> bool {
+    beginnings.iter().any(|begin| word.starts_with(begin))
+}
 
 /// Whether a text names a velocity or a displacement.
 pub fn names_other_motion(text: &str) -> bool {
     let lower = text.to_lowercase();
-    let is_motion =
-        |word: &str| OTHERS.iter().any(|begin| word.starts_with(begin) && !["force", "kraft"].contains(begin));
-    lower.split(|c: char| !c.is_alphanumeric()).any(is_motion)
+    lower.split(|c: char| !c.is_alphanumeric()).any(|word| begins(word, &OTHER_MOTIONS))
 }
 
 impl Quantity {
@@ -54,7 +58,6 @@ impl Quantity {
     pub fn of(name: &str) -> Option<Quantity> {
         let lower = name.trim().to_lowercase();
         let words = || lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
-        let begins = |word: &str, beginnings: &[&str]| beginnings.iter().any(|begin| word.starts_with(begin));
         if words().any(|word| begins(word, &SPECTRAL) || ORDINATES.contains(&word)) {
             return Some(Quantity::Spectrum);
         }
@@ -63,7 +66,7 @@ impl Quantity {
         let said = words().find_map(|word| match word {
             _ if TIMES.contains(&word) => Some(Quantity::Time).filter(|_| !is_count),
             _ if begins(word, &ACCELERATIONS) || is_short(word) => Some(Quantity::Acceleration),
-            _ if begins(word, &OTHERS) => Some(Quantity::Other),
+            _ if begins(word, &OTHER_MOTIONS) || begins(word, &FORCES) => Some(Quantity::Other),
             _ => None,
         });
         match lower.as_str() {

@@ -217,9 +217,11 @@ fn acceleration_column(rows: &Rows, options: &TextOptions) -> Result<usize, Reco
         if named.is_empty() {
             named = headings.iter().collect();
         }
-        let names: Vec<String> = named.into_iter().map(Heading::component).collect();
-        let known = if names.is_empty() { format!("1 to {columns}") } else { listed(&names) };
-        RecordError::NoColumn { column: column.into(), known }
+        let (column, names) = (column.into(), named.into_iter().map(Heading::component).collect::<Vec<_>>());
+        match names.is_empty() {
+            true => RecordError::NoNumberedColumn { column, columns },
+            false => RecordError::NoColumn { column, known: listed(&names) },
+        }
     };
     if let Some(name) = options.column.as_ref().filter(|_| !rows.fills_rows) {
         // By the name of the column, else by its whole heading, else by its number.
