@@ -18,7 +18,8 @@ pub const LIGHT_CONTACT: f64 = 1e-9;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Validity {
-    /// The point of no return of a run that overturns, otherwise the end of the run `[s]`.
+    /// The point of no return of a run that overturns, otherwise the end of the run `[s]`. It is zero for a column that falls from the start: then no
+    /// contact counts, demands are zero and the smallest normal forces infinite.
     pub until: f64,
     /// Per interface, base first.
     pub contacts: Vec<ContactNeeds>,

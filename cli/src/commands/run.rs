@@ -171,17 +171,26 @@ fn end_of_run(scene: &Scene, response: &Response) -> String {
     }
 }
 
+/// Longest list that is printed. `summary.json` has longer ones.
+const MOST_LISTED: usize = 20;
+
+const BASE_FIRST: &str = ", base first";
+
+/// A list of numbers, base first, with the text of each and its place from 1: all, or the least and the largest where there are many.
+fn list(place: &str, numbers: &[f64], text: impl Fn(usize, f64) -> String) -> String {
+    let texts = || numbers.iter().enumerate().map(|(index, number)| text(index + 1, *number));
+    if numbers.len() <= MOST_LISTED {
+        return format!("{BASE_FIRST}: {}", texts().collect::<Vec<_>>().join(", "));
+    }
+    let by_size = |a: &usize, b: &usize| numbers[*a].total_cmp(&numbers[*b]);
+    let [least, largest] = [(0..numbers.len()).min_by(by_size), (0..numbers.len()).max_by(by_size)].map(|index| {
+        index.map_or(String::new(), |index| format!("{} ({place} {})", text(index + 1, numbers[index]), index + 1))
+    });
+    format!(": {least} to {largest}")
+}
+
 /// A few lines on what happened.
 fn account(scene: &Scene, response: &Response, followed: &Followed) -> String {
-    let list = |numbers: &[f64]| numbers.iter().map(|number| format!("{number:.5}")).collect::<Vec<_>>().join(", ");
-    // Names of blocks are printed once, in the first list.
-    let with_names = |numbers: &[f64]| {
-        let report = numbers.iter().enumerate().map(|(block, number)| match name(scene, block + 1) {
-            "" => format!("{number:.5}"),
-            name => format!("{} {number:.5}", printable(name)),
-        });
-        report.collect::<Vec<_>>().join(", ")
-    };
     let modes = response.modes_by_time();
     let (report, others) = modes.split_at(modes.len().min(MODES_PRINTED));
     let mut modes: Vec<String> = report.iter().map(|(mode, time)| format!("{mode} {time:.3} s")).collect();
@@ -195,16 +204,22 @@ fn account(scene: &Scene, response: &Response, followed: &Followed) -> String {
     }
     let _ = writeln!(text, "{}{}; {} impact(s)", followed.lead(), end_of_run(scene, response), response.impacts);
     text.push_str(&followed.line());
-    let (peaks, angles) = (with_names(&response.peaks(&scene.column)), list(&response.peak_theta));
-    let _ = writeln!(text, "largest |θ|/α, base first: {peaks} (|θ|: {angles} rad)");
+    // Names of blocks are printed once, in the first list.
+    let share = |block: usize, number: f64| match name(scene, block) {
+        "" => format!("{number:.5}"),
+        name => format!("{} {number:.5}", printable(name)),
+    };
+    let shares = list("block", &response.peaks(&scene.column), share);
+    let angles = list("block", &response.peak_theta, |_, number| format!("{number:.5}"));
+    let _ = writeln!(text, "largest |θ|/α{shares} (|θ|{} rad)", angles.trim_start_matches(BASE_FIRST));
     let _ = writeln!(text, "time in mode: {}", modes.join(", "));
     if let Some(report) = response.motion_at_contacts() {
-        let slides: Vec<String> = report.residual_slide.iter().map(|slide| fixed(100.0 * slide, 3)).collect();
+        let slides = list("interface", &report.residual_slide, |_, slide| fixed(100.0 * slide, 3));
         let flights: usize = report.flights.iter().sum();
         // Blocks that fall slide and fly on: where they are at the end of the run is not where they stay.
         let when =
             if response.lost_block().is_some() { "slides when the run ends, in the fall" } else { "slides at the end" };
-        let _ = writeln!(text, "{when}, base first: {} cm; {flights} flight(s)", slides.join(", "));
+        let _ = writeln!(text, "{when}{slides} cm; {flights} flight(s)");
     } else if response.sliding.is_some() && response.status != StopReason::Undetermined {
         let _ = writeln!(text, "friction holds: no block slides or flies");
     }
@@ -215,6 +230,16 @@ fn account(scene: &Scene, response: &Response, followed: &Followed) -> String {
 mod tests {
     use super::*;
     use rocking::{Column, Friction, simulate};
+
+    #[test]
+    fn long_lists_are_told_by_their_least_and_largest_number() {
+        let text = |_, number: f64| format!("{number:.1}");
+        let numbers: Vec<f64> =
+            (0..=MOST_LISTED).map(|block| if block == 3 { 0.4 } else { -0.1 * block as f64 }).collect();
+        assert_eq!(list("block", &numbers[..2], text), ", base first: -0.0, -0.1");
+        assert!(list("block", &numbers[..MOST_LISTED], text).ends_with(", -1.9"));
+        assert_eq!(list("block", &numbers, text), ": -2.0 (block 21) to 0.4 (block 4)");
+    }
 
     #[test]
     fn friction_holds_where_a_motion_follows_from_it() {
