@@ -71,6 +71,14 @@ pub fn list_modes(blocks: usize) -> String {
         mode_count(blocks),
         posture::LINE_KEY
     );
+    let largest = rocking::generated::MAX_BLOCKS;
+    if blocks > largest {
+        let _ = writeln!(
+            text,
+            "This build has generated equations for columns of up to {largest} blocks; hand-written ones serve larger columns; where blocks are tapered or\n\
+             displaced, only in modes of more than {largest} free angles. ROCKING_MAX_BLOCKS={blocks} builds those of {blocks} blocks."
+        );
+    }
     text
 }
 

@@ -49,7 +49,8 @@ pub fn counts(pattern: &Pattern) -> String {
     format!(
         "{}\n{titles}\n{out}{sections}\n\
          In its cheapest form a term is the coefficient of a squared rate, of the ground's acceleration or of gravity, times these: a product more for one free angle,\n\
-         and fewer of them once hoisted. An addition or multiplication is one flop, a division is none; sines and cosines are inputs, one pair per free angle.\n\
+         and fewer of them once hoisted. An addition or multiplication is one flop, a division is none; equal subexpressions count once; sines and cosines are inputs, one pair per free\n\
+         angle.\n\
          * kept: fewest divisions, then fewest flops, then the first.\n",
         title(pattern)
     )

@@ -220,28 +220,22 @@ impl Page<'_> {
     /// Levers and positions of the centroids.
     fn positions(&mut self) {
         self.section("Positions of the centroids", "Relative to the moving ground, in metres:");
-        let mut rows = Vec::new();
-        for (index, position) in self.compact.positions.iter().enumerate() {
-            rows.push(equation(&format!("\\mathbf{{G}}_{{{}}}", index + 1), &self.position(position)));
-        }
-        self.display(&rows, true);
+        let positions = self.compact.positions.iter().enumerate();
+        let rows =
+            positions.map(|(index, position)| (format!("\\mathbf{{G}}_{{{}}}", index + 1), self.position(position)));
+        self.display(&equations(rows), true);
         let levers = &self.compact.lever;
         if levers.is_empty() {
             return;
         }
         self.out.push_str("Here $\\mathbf{d}_a$ leads from the pivot of link $a$ to that of link $a + 1$:\n");
-        let rows: Vec<Vec<String>> = levers
-            .iter()
-            .enumerate()
-            .map(|(link, lever)| {
-                let name = format!("\\mathbf{{d}}_{{{}}}", link + 1);
-                let symbols = self.vector([lever[0].symbol, lever[1].symbol]);
-                let mut values = Formula::new(self.arena, self.notation);
-                values.add_tex(&self.vector([lever[0].value, lever[1].value]));
-                equation(&format!("{name} = {symbols}"), &values)
-            })
-            .collect();
-        self.display(&rows, false);
+        let rows = levers.iter().enumerate().map(|(link, lever)| {
+            let symbols = self.vector([lever[0].symbol, lever[1].symbol]);
+            let mut values = Formula::new(self.arena, self.notation);
+            values.add_tex(&self.vector([lever[0].value, lever[1].value]));
+            (format!("\\mathbf{{d}}_{{{}}} = {symbols}", link + 1), values)
+        });
+        self.display(&equations(rows), false);
     }
 
     fn position(&self, position: &Position) -> Formula<'_> {
@@ -269,26 +263,25 @@ impl Page<'_> {
              that link $a$ carries about its pivot, from $\\sum_i m_i \\partial\\mathbf{G}_i/\\partial\\theta_a = R'(\\theta_a) \
              \\mathbf{S}_a$, lateral ($\\perp$) and axial ($\\parallel$), and the moment of inertia $J_a$ [kg\\,m$^2$]:",
         );
-        let mut rows = Vec::new();
-        for (link, inertia) in compact.inertia.iter().enumerate() {
-            rows.extend(compact.moment[link].iter().map(|part| self.definition(part)));
-            rows.push(self.definition(inertia));
-        }
-        self.display(&rows, false);
+        let links = compact.moment.iter().zip(&compact.inertia);
+        let rows = links.flat_map(|(moment, inertia)| moment.iter().chain([inertia])).map(|part| self.definition(part));
+        self.display(&equations(rows), false);
         if let Some(ground_moment) = &compact.ground_moment {
             self.out.push_str("The part of $V/\\hat g$ that contains no angle [kg\\,m] is\n");
-            self.display(&[self.definition(ground_moment)], false);
+            self.display(&equations([self.definition(ground_moment)]), false);
         }
         if compact.coupling.is_empty() {
             return;
         }
         self.out.push_str("Links $a < b$ are coupled by the constants [kg\\,m$^2$]\n");
+        let parts = equations(compact.coupling.iter().flat_map(|each| &each.parts).map(|part| self.definition(part)));
         let mut rows = Vec::new();
-        for coupling in &compact.coupling {
-            let [cosine, sine] = [&coupling.parts[0], &coupling.parts[1]].map(|part| self.definition(part));
-            match (&cosine[..], &sine[..]) {
-                ([cosine], [sine]) => rows.push(vec![format!("{cosine} & {sine}")]),
-                _ => rows.extend([cosine, sine]),
+        for both in parts.chunks(2) {
+            match both {
+                [cosine, sine] if cosine.len() + sine.len() == 2 => {
+                    rows.push(vec![format!("{} & {}", cosine[0], sine[0])])
+                }
+                _ => rows.extend_from_slice(both),
             }
         }
         self.display(&rows, false);
@@ -298,8 +291,8 @@ impl Page<'_> {
         );
     }
 
-    fn definition(&self, definition: &Definition) -> Vec<String> {
-        equation(&self.tex(definition.symbol), &self.formula(&[definition.value]))
+    fn definition(&self, definition: &Definition) -> (String, Formula<'_>) {
+        (self.tex(definition.symbol), self.formula(&[definition.value]))
     }
 
     fn energies(&mut self, minus_potential: Expr) {
@@ -316,8 +309,8 @@ impl Page<'_> {
             lagrangian.start_line();
         }
         lagrangian.add(minus_potential);
-        let rows = [("T", kinetic), ("V", potential), ("L", lagrangian)].map(|(left, right)| equation(left, &right));
-        self.display(&rows, true);
+        let rows = [("T", kinetic), ("V", potential), ("L", lagrangian)];
+        self.display(&equations(rows.map(|(left, right)| (left.to_string(), right))), true);
     }
 
     fn motion(&mut self, motion: &[[Vec<Expr>; 3]]) {
@@ -358,8 +351,7 @@ impl Page<'_> {
             rows.join(" \\\\\n    ")
         );
         let pairs = (0..dof).flat_map(|a| (a + 1..dof).map(move |b| (a, b)));
-        let couplings: Vec<Vec<String>> =
-            pairs.map(|(a, b)| equation(&entry(a, b), &self.formula(&[self.compact.mass[a][b]]))).collect();
+        let couplings = equations(pairs.map(|(a, b)| (entry(a, b), self.formula(&[self.compact.mass[a][b]]))));
         self.section(
             "Mass matrix",
             &format!(
@@ -372,17 +364,17 @@ impl Page<'_> {
     /// The emitted program's statements.
     fn program(&mut self, listing: &Listing, form: Form) {
         let text = format!(
-            "Solved for the accelerations, as it is emitted for horizontal ground motion ({form}): {}, {} and {}, sines and \
-             cosines apart. Typewriter names are those of the code, in which lateral components point to the left, and cross products \
+            "Solved for the accelerations, as it is generated for horizontal ground motion ({form}): {}, {} and {}, sines and \
+             cosines apart. Equal subexpressions count once, a division by a constant as the multiplication by its reciprocal. Typewriter names are those of the code, in which lateral components point to the left, and cross products \
              are clockwise: they are minus those above.",
             counted(listing.operations.additions, "addition"),
             counted(listing.operations.multiplications, "multiplication"),
             counted(listing.operations.divisions, "division"),
         );
         self.section("Step-time program", &text);
-        let row = |(name, value): &(Expr, Expr)| equation(&self.tex(*name), &self.formula(&[*value]));
-        let constants: Vec<Vec<String>> = listing.constants.iter().map(row).collect();
-        let statements: Vec<Vec<String>> = listing.statements.iter().map(row).collect();
+        let row = |(name, value): &(Expr, Expr)| (self.tex(*name), self.formula(&[*value]));
+        let [constants, statements] =
+            [&listing.constants, &listing.statements].map(|rows| equations(rows.iter().map(row)));
         if !constants.is_empty() {
             self.out.push_str("Its constants are\n");
             self.display(&constants, false);
@@ -395,13 +387,18 @@ impl Page<'_> {
     }
 }
 
-/// `left = right` in lines that fit.
-pub(super) fn equation(left: &str, right: &Formula) -> Vec<String> {
-    let mut lines = right.lines(DISPLAY - width(left) - width("="));
-    for (position, line) in lines.iter_mut().enumerate() {
-        *line = if position == 0 { format!("{left} &= {line}") } else { format!("&{line}") };
-    }
-    lines
+/// `left = right` of a display, each in lines that fit beside the widest of the left sides: `align` sets these in a column.
+pub(super) fn equations<'a>(rows: impl IntoIterator<Item = (String, Formula<'a>)>) -> Vec<Vec<String>> {
+    let rows: Vec<_> = rows.into_iter().collect();
+    let column = rows.iter().map(|(left, _)| width(left)).fold(0.0, f64::max);
+    let in_lines = |(left, right): &(String, Formula)| {
+        let mut lines = right.lines(DISPLAY - column - width("="));
+        for (position, line) in lines.iter_mut().enumerate() {
+            *line = if position == 0 { format!("{left} &= {line}") } else { format!("&{line}") };
+        }
+        lines
+    };
+    rows.iter().map(in_lines).collect()
 }
 
 /// `left = 0` in lines that fit.

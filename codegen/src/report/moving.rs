@@ -1,6 +1,6 @@
 //! The derivation of states that slide or fly as plain text and LaTeX, operation counts, and the code of their program.
 
-use super::latex::{document, equation, equation_to_zero};
+use super::latex::{document, equation_to_zero, equations};
 use super::text::{NOTATION, numbered, program_text};
 use super::words::{Below, capital, counted, joined, links_in_words};
 use crate::emit;
@@ -34,6 +34,7 @@ pub fn moving_text(joints: &Joints) -> String {
     let centroids = rows.centroids.iter().enumerate();
     let centroids =
         centroids.flat_map(|(block, [x, y])| [(format!("x_{}", block + 1), *x), (format!("y_{}", block + 1), *y)]);
+    out.push_str("Below, what is zero is left out.\n");
     section(&mut out, &arena, "Positions of the centroids relative to the ground [m]", centroids);
     let size = rows.coordinates.len();
     let entries = (0..size).flat_map(|a| (0..size).map(move |b| (a, b)));
@@ -45,15 +46,15 @@ pub fn moving_text(joints: &Joints) -> String {
     let names: Vec<&str> = rows.coordinates.iter().filter_map(|each| arena.symbol_name(each.value)).collect();
     let _ = writeln!(
         out,
-        "\nEquations of motion: sum over b of M_a_b q_b_ddot + B_a + Q_a = 0, with q = ({}); what is zero is left out",
+        "\nEquations of motion: sum over b of M_a_b q_b_ddot + B_a + Q_a = 0, with q = ({})",
         names.join(", ")
     );
     section(&mut out, &arena, CARRIED, inputs);
-    out.push_str(ZERO_INPUTS);
     out.push_str(
         "link_inertia_a [kg m^2], link_moment_a [kg m]: moment of inertia and first moment about the pivot of link a of the link and all masses above, those in\n\
-         the next pivot; link_lever_a [m] leads to that pivot. carried_c_a [kg m], carried_mass_c [kg]: first moment about the pivot of link a, and mass, of what\n\
-         translation c moves. In flight the pivot is the middle of the base. Further inputs of translation c: cos_face_c and sin_face_c of the angle\n\
+         the next pivot; link_lever_a [m] leads to that pivot. carried_mass_c [kg], carried_c_a [kg m]: mass that translation c moves, and its first moment about\n\
+         the pivot of link a, as far as link a turns it, masses of higher links in the next pivot. Where the interface below link a is free, its pivot is the middle\n\
+         of its base; where the one above is free, the next pivot is the middle of its top. Further inputs of translation c: cos_face_c and sin_face_c of the angle\n\
          of its face, face_omega_c, the rate of the face, rate_c, that of the translation, and lift_c, mu with the sign of the slide. In flight lift_c is zero,\n\
          and the vertical direction has cos_face_c = 0 and sin_face_c = -1.\n",
     );
@@ -64,12 +65,9 @@ pub fn moving_text(joints: &Joints) -> String {
 /// Title of the list of moments, levers and masses.
 const CARRIED: &str = "What links and translations carry at the present slides: inputs of the program";
 
-/// What that list leaves out.
-const ZERO_INPUTS: &str = "Inputs that are not listed are zero.\n";
-
 /// What the sizes of blocks stand for.
 const ALIGNED: &str = "Centroids are at half height, and interfaces that stick stand aligned: c_i is half the contact at interface i. Tapered blocks, and blocks that\n\
-    stick displaced, have the same programs with other inputs. u_i [m], u_i_dot [m/s]: slide of interface i, positive to the right along its face, and its rate; mu_i: its coefficient of kinetic friction.\n\
+    stick displaced, have the same programs with other inputs. bottom_half_width_i, top_half_width_i [m]: of the lower and the upper face of block i. u_i [m], u_i_dot [m/s]: slide of interface i, positive to the right along its face, and its rate; mu_i: its coefficient of kinetic friction.\n\
     apart_x_i, apart_y_i [m]: place of a block in flight. Rows of angles are in N m, those of translations in N.\n";
 
 /// Lines `left = right` below a heading, without those that are zero.
@@ -110,7 +108,7 @@ pub fn moving_rust(joints: &Joints) -> String {
     let record = record(joints);
     let mut heading = title(joints, &record);
     section(&mut heading, &arena, CARRIED, inputs);
-    heading.push_str(ZERO_INPUTS);
+    heading.push_str("Inputs that are not listed are zero.\n");
     let heading: String = heading.lines().map(|line| format!("// {line}").trim_end().to_string() + "\n").collect();
     format!("{heading}{}", emit::moving_excerpt(&record))
 }
@@ -142,8 +140,8 @@ pub fn moving_counts(joints: &Joints) -> String {
     row("  constants at the present slides hoisted", count_hoisted(&arena, derived));
     row(&format!("program {}", record.name()), record.program.operations("rows").unwrap_or_default());
     out.push_str(
-        "\nAn addition or multiplication is one flop, a division is none; sines and cosines are inputs. Moments, levers and inertias at the present\n\
-         slides are inputs of the program, and the rows are solved outside of it.\n",
+        "\nAn addition or multiplication is one flop, a division is none; equal subexpressions count once; sines and cosines are inputs. Moments, levers and\n\
+         inertias at the present slides are inputs of the program, and the rows are solved outside of it.\n",
     );
     out
 }
@@ -232,9 +230,10 @@ struct Sections<'d> {
 }
 
 impl Sections<'_> {
-    /// `name = value`, in lines.
-    fn equation(&self, name: &str, value: Expr) -> Vec<String> {
-        equation(name, &Formula::of(self.arena, &self.notation, &[value]))
+    /// `name = value` for each, in lines.
+    fn equations(&self, rows: impl IntoIterator<Item = (String, Expr)>) -> Vec<Vec<String>> {
+        let formula = |(name, value)| (name, Formula::of(self.arena, &self.notation, &[value]));
+        equations(rows.into_iter().map(formula))
     }
 
     /// Symbols, and the states in words.
@@ -265,19 +264,19 @@ impl Sections<'_> {
         let positions = self.rows.centroids.iter().enumerate().flat_map(|(block, position)| {
             ["x", "y"].into_iter().zip(*position).map(move |(axis, value)| (format!("{axis}_{{{}}}", block + 1), value))
         });
-        let positions: Vec<_> = positions.map(|(name, value)| self.equation(&name, value)).collect();
-        display(out, &positions);
+        display(out, &self.equations(positions));
     }
 
     /// Moments, levers and masses that links and translations carry.
     fn carried(&self, quantities: &Quantities, out: &mut String) {
         out.push_str(
-            "\n\\section*{What links and translations carry}\nLink $a$ turns by $\\theta_a$ about its pivot, in flight about the middle of its base. About it, $J_a$ [kg\\,m$^2$] is the moment of inertia and \
+            "\n\\section*{What links and translations carry}\nLink $a$ turns by $\\theta_a$ about its pivot: the middle of its base where the interface below is free. About it, $J_a$ [kg\\,m$^2$] is the moment of inertia and \
              $\\mathbf{S}_a$ [kg\\,m] the first moment of the link and all masses above, those in the next pivot, to which $\\mathbf{d}_a$ leads, lateral ($\\perp$) and axial \
-             ($\\parallel$). Translation $c$ moves the mass $M_c$ [kg], whose first moment about the pivot of link $a$, as far as that link turns it, is $\\mathbf{P}_{ca}$ [kg\\,m]. At the present slides,\n",
+             ($\\parallel$); where the interface above is free, the next pivot is the middle of the link's top. Translation $c$ moves the mass $M_c$ [kg], whose first moment about the \
+             pivot of link $a$, as far as that link turns it, masses of higher links in the next pivot, is $\\mathbf{P}_{ca}$ [kg\\,m]. At the present slides,\n",
         );
         let mut definitions = Vec::new();
-        let mut define = |name: String, value: Expr| definitions.push(self.equation(&name, value));
+        let mut define = |name: String, value: Expr| definitions.push((name, value));
         for (link, inertia) in quantities.inertia.iter().enumerate() {
             define(format!("J_{{{}}}", link + 1), *inertia);
         }
@@ -296,7 +295,7 @@ impl Sections<'_> {
         for (index, mass) in quantities.mass.iter().enumerate() {
             define(format!("M_{{{}}}", index + 1), *mass);
         }
-        display(out, &definitions);
+        display(out, &self.equations(definitions));
     }
 
     /// Directions of the translations, and the equations; `angles` is the number of free angles.
@@ -335,7 +334,7 @@ fn program(record: &MovingRecord, out: &mut String) {
     let operations = program.operations("rows").unwrap_or_default();
     let _ = writeln!(
         out,
-        "\n\\section*{{Program}}\nThe emitted program \\texttt{{{}}} serves all states with as many angles and translations. It has {} and {}; its inputs are sines \
+        "\n\\section*{{Program}}\nThe program \\texttt{{{}}} serves all states with as many angles and translations. It has {} and {}, equal subexpressions counted once; its inputs are sines \
          and cosines, rates, and the moments, levers and masses that links and translations carry at the present slides. There ground\\_x is $\\ddot x_g$ and gravity $\\hat g$; link\\_inertia, link\\_moment and link\\_lever are $J$, $\\mathbf{{S}}$ and $\\mathbf{{d}}$, carried and carried\\_mass $\\mathbf{{P}}$ and $M$. \
          Its lateral components point to the left: they are minus those with $\\perp$ above. \
          Of translation $c$, cos\\_face and sin\\_face are those of the angle of its face, face\\_omega the rate of the face, rate that of the translation, and lift \
@@ -345,12 +344,9 @@ fn program(record: &MovingRecord, out: &mut String) {
         counted(operations.multiplications, "multiplication")
     );
     let statements = program.routines.iter().flat_map(|routine| &routine.statements);
-    let statements: Vec<Vec<String>> = statements
-        .map(|each| {
-            equation(&plain.tex(&program.arena, each.symbol), &Formula::of(&program.arena, &plain, &[each.value]))
-        })
-        .collect();
-    display(out, &statements);
+    let formula = |value: Expr| Formula::of(&program.arena, &plain, &[value]);
+    let statements = statements.map(|each| (plain.tex(&program.arena, each.symbol), formula(each.value)));
+    display(out, &equations(statements));
     let Some(routine) = program.routines.first() else { return };
     let size = record.angles + record.translations;
     let (matrix, loads) = routine.outputs.split_at(size * size);
@@ -359,10 +355,7 @@ fn program(record: &MovingRecord, out: &mut String) {
         .enumerate()
         .map(|(place, entry)| (format!("K_{{{},{}}}", place / size + 1, place % size + 1), *entry));
     let loads = loads.iter().enumerate().map(|(row, load)| (format!("f_{{{}}}", row + 1), *load));
-    let results: Vec<Vec<String>> = matrix
-        .chain(loads)
-        .map(|(name, value)| equation(&name, &Formula::of(&program.arena, &plain, &[value])))
-        .collect();
+    let results = equations(matrix.chain(loads).map(|(name, value)| (name, formula(value))));
     out.push_str("\nIt returns the matrix $K$ and the loads $f$ of $K \\ddot q = f$, where $q$ are the angles of the links, base first, then the translations:\n");
     display(out, &results);
 }

@@ -74,8 +74,8 @@ pub fn rust(pattern: &Pattern) -> String {
 }
 
 /// What an excerpt leaves out.
-const EXCERPT: &str = "// An excerpt of the module that the build generates: it compiles in any crate that depends on `rocking`. Contact forces are\n\
-    // in the module alone.\n//\n";
+const EXCERPT: &str = "// An excerpt of the module that is generated for columns of as many blocks: it compiles in any crate that depends on `rocking`.\n\
+    // Contact forces are in the module alone.\n//\n";
 
 pub(super) fn title(pattern: &Pattern) -> String {
     let name = match pattern.mode() {
@@ -112,7 +112,8 @@ pub(super) fn program_text(program: &Program) -> String {
     let mut out = String::new();
     for routine in &program.routines {
         let operations = program.operations(routine.name).unwrap_or_default();
-        let _ = writeln!(out, "\nStep-time program `{}`: {operations}", routine.name);
+        let _ =
+            writeln!(out, "\nStep-time program `{}`: {operations}, equal subexpressions counted once", routine.name);
         for statement in &routine.statements {
             let _ = writeln!(out, "  {} = {}", statement.name, program.arena.text(statement.value));
         }
