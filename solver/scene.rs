@@ -1,5 +1,7 @@
 //! A scene: column, ground motion, contact law and options, validated and in SI units. See [`crate::scene_file`] for its file.
 
+mod plausibility;
+
 use crate::column::{Column, Shape};
 use crate::friction::{self, Friction};
 use crate::mechanics::generated::Equations;
@@ -344,6 +346,13 @@ impl Scene {
         self.check_restitution(&mut faults);
         self.check_initial(&mut faults);
         if faults.0.is_empty() { Ok(()) } else { Err(SceneErrors(faults.0)) }
+    }
+
+    /// Warnings, a sentence each: about the records ([`Excitation::warnings`]), and about numbers that are likely in another unit, or missing.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut warnings = self.excitation.warnings();
+        warnings.extend(plausibility::doubts(self));
+        warnings
     }
 
     /// End of the run where a scene file gives none `[s]`: the ground has come to rest, and a free swing of `20/p` of the column as one body, or

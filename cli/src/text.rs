@@ -1,7 +1,6 @@
 //! Text from users (titles, file names, cells) on its way to a terminal, a table or a page.
 
 use std::borrow::Cow;
-use std::collections::BTreeSet;
 use std::path::Path;
 
 /// The text on one line and without control characters: line breaks become spaces, other control characters and those that
@@ -30,12 +29,6 @@ pub fn is_unsafe(sign: char) -> bool {
 /// [`printable`] for each line of a text.
 pub fn printable_lines(text: &str) -> String {
     text.split('\n').map(|line| printable(line.strip_suffix('\r').unwrap_or(line))).collect::<Vec<_>>().join("\n")
-}
-
-/// Each text once, in the order of their first appearance.
-pub fn distinct(texts: impl IntoIterator<Item = String>) -> Vec<String> {
-    let mut seen = BTreeSet::new();
-    texts.into_iter().filter(|text| seen.insert(text.clone())).collect()
 }
 
 /// A path as it is shown.

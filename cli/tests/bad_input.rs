@@ -95,6 +95,8 @@ fn unknown_keys_and_kinds() {
     refused(&format!("mu = 0.7\n{SCENE}"), &["line 1", "`mu`", "did you mean `friction`?"]);
     refused(&format!("g = 9.81\n{SCENE}"), &["line 1", "`g`", "did you mean `gravity`?"]);
     refused(&with("t_end = 1.0", "duration = 1.0"), &["line 9", "`solver.duration`", "did you mean `t_end`?"]);
+    refused(&with("half_height = 1.6", "heigth = 2.0"), &["heigth", "did you mean `height`?"]);
+    refused(&with("half_width = 0.4", "half_width = 0.4\nweight = 2.0"), &["weight", "did you mean `mass`?"]);
     refused(&with("omega = 10.0", "OMEGA = 10.0"), &["line 7", "OMEGA", "did you mean `omega`?"]);
     refused(&with("sine-pulse", "sinus"), &["line 5", "kind", "`sinus`", "choose one of sine-pulse"]);
     refused(&with("\"sine-pulse\"", "\"a\\nall is well\""), &["line 5", "there is no kind `a\\nall is well`"]);

@@ -316,21 +316,76 @@ fn a_ratio_that_friction_cannot_give_is_noted() {
 
 /// A density in t/m³ makes a column of kilograms. Without a density or a mass only ratios of masses count.
 #[test]
-fn densities_in_tonnes_are_noted() {
+fn densities_in_tonnes_give_a_warning() {
     for (density, is_noted) in [("density = 2.7", true), ("density = 2700", false), ("", false), ("mass = 3", false)] {
         let scene = format!("[column]\nblocks = 3\ndiameter = 1.2\nheight = 6.0\n{density}\n");
-        let told = Folder::with("scene.toml", &scene).succeeds("check scene.toml");
-        assert_eq!(told.contains("note: drums of 2.7 kg/m³; stone has 1500 to 3000 kg/m³"), is_noted, "{told}");
+        let (_, warned) = Folder::with("scene.toml", &scene).says("check scene.toml");
+        assert_eq!(warned.contains("warning: drums of 2.7 kg/m³; stone has 1500 to 3000 kg/m³"), is_noted, "{warned}");
     }
 }
 
 #[test]
-fn a_column_taller_than_any_is_noted() {
+fn a_column_taller_than_any_gives_a_warning() {
     for (half_height, is_noted) in [(29.0, false), (35.0, true)] {
         let scene = format!("[column]\nblocks = 1\nhalf_width = 8.0\nhalf_height = {half_height}\n");
-        let told = Folder::with("scene.toml", &scene).succeeds("check scene.toml");
-        assert_eq!(told.contains("note: no column is as tall; sizes are in m"), is_noted, "{told}");
+        let (_, warned) = Folder::with("scene.toml", &scene).says("check scene.toml");
+        assert_eq!(warned.contains("the column is 70 m high, and no column is"), is_noted, "{warned}");
     }
+}
+
+/// A capital whose density was forgotten weighs 1 kg/m² of its side view: the run says so, and its summary.
+#[test]
+fn a_density_forgotten_on_one_block_gives_a_warning() {
+    let blocks = |density: &str| {
+        format!(
+            "[[block]]\nhalf_width = 0.4\nhalf_height = 1.0\ndensity = 2600\n[[block]]\nhalf_width = 0.4\nhalf_height = 0.3\n{density}"
+        )
+    };
+    let folder = Folder::with("s.toml", &blocks("[solver]\nt_end = 0.1\n"));
+    let warning =
+        "block 2 has a density of 1, block 1 of 2600 (kg/m³ for a drum, otherwise kg per m² of the side view)";
+    for command in ["check s.toml", "run s.toml --no-trust"] {
+        let (_, warned) = folder.says(command);
+        assert!(warned.contains(warning), "{command}: {warned}");
+    }
+    assert!(folder.summary()["warnings"].to_string().contains(warning));
+    folder.write("s.toml", blocks("mass = 100\n[solver]\nt_end = 0.1\n"));
+    assert_eq!(folder.says("check s.toml").1, "");
+}
+
+/// One radian where one degree was meant.
+#[test]
+fn a_block_that_begins_past_its_balance_is_noted() {
+    let scene = |theta: f64| {
+        format!("[column]\nblocks = 2\nhalf_width = 0.4\nhalf_height = 1.6\n[initial]\ntheta = [0.01, {theta}]\n")
+    };
+    let told = Folder::with("s.toml", &scene(1.0)).succeeds("check s.toml");
+    assert!(
+        told.contains("note: block 2 begins past its balance: at 1 rad (57.3°), with a slenderness of 0.4636 rad"),
+        "{told}"
+    );
+    let told = Folder::with("s.toml", &scene(0.017)).succeeds("check s.toml");
+    assert!(!told.contains("past its balance"), "{told}");
+}
+
+/// A factor of the record takes the place of the size to which the base scene scales it.
+#[test]
+fn an_axis_that_takes_the_place_of_a_key_is_named() {
+    let base = "[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.6\n[excitation.horizontal]\nkind = \"record\"\nfile = \"a.csv\"\ndt = 0.1\nunits = \"g\"\npga_g = 0.3\n[solver]\nt_end = 1.0\n";
+    let folder = Folder::with("base.toml", base);
+    folder.write("a.csv", "0\n0.1\n-0.2\n0\n");
+    let sweep = |key: &str| format!("scene = \"base.toml\"\n[axes]\n{key} = [1.0, 2.0]\n");
+    folder.write("s.toml", sweep("scale"));
+    let place = "in place of excitation.horizontal.pga_g in the base scene";
+    let warning = "the axis excitation.horizontal.scale takes the place of excitation.horizontal.pga_g";
+    let (told, warned) = folder.says("check s.toml");
+    assert!(told.contains(place) && warned.contains(warning), "{told}{warned}");
+    let (_, warned) = folder.says("sweep s.toml");
+    assert!(warned.contains(warning), "{warned}");
+    // One size for another is what the axis says.
+    folder.write("s.toml", sweep("pga"));
+    let (told, warned) = folder.says("check s.toml");
+    assert!(told.contains(place) && warned.is_empty(), "{told}{warned}");
 }
 
 /// Under exactly the acceleration that opens it, or with its weight exactly above its edge, a block stays at rest: rounding opens nothing.

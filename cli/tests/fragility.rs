@@ -170,8 +170,8 @@ fn rows_of_other_axes_are_kept_apart() {
     assert_eq!(fitted("--where column.alpha=0.15"), (72, String::new()));
     // The tables of all rows stay.
     assert_eq!(folder.read("t-fragility.csv"), of_all);
-    assert_eq!(folder.table("t-where-fragility.csv").texts("where"), ["column.alpha=0.15"]);
-    assert!(folder.has("t-where-shares.csv"));
+    assert_eq!(folder.table("t-where-column.alpha=0.15-fragility.csv").texts("where"), ["column.alpha=0.15"]);
+    assert!(folder.has("t-where-column.alpha=0.15-shares.csv"));
     let (runs, warning) = fitted("--where column.alpha=0.30");
     assert!(runs == 72 && warning.contains("6 run(s) end before their ground motion"), "{warning}");
     for (condition, word) in

@@ -291,6 +291,21 @@ fn components_of_a_folder_are_records() {
     }
 }
 
+/// A study has the motion of its records alone: what the scene shakes with beside them is left out with a warning.
+#[test]
+fn a_vertical_motion_of_the_scene_is_left_out_with_a_warning() {
+    let folder = folder();
+    let vertical = "[excitation.vertical]\nkind = \"sine-pulse\"\namplitude_g = 0.9\nomega = 6.0\n";
+    folder.write("block.toml", folder.read("block.toml") + vertical);
+    let study = |vertical: &str| {
+        format!("{BLOCK}levels = [0.5]\n[records]\nfolder = \"records\"\ncomponent = \"H1\"\n{vertical}")
+    };
+    let warning = "the vertical ground motion of the scene is left out";
+    assert!(run(&folder, &study("")).contains(warning));
+    assert!(folder.says("check study.toml").1.contains(warning));
+    assert!(!run(&folder, &study("vertical = true\n")).contains(warning));
+}
+
 /// Killed again and again, it comes to the same bytes.
 #[test]
 fn an_interrupted_study_goes_on() {

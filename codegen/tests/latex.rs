@@ -3,10 +3,10 @@
 use proptest::prelude::Rng;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 use rocking_codegen::derive;
-use rocking_codegen::pattern::{Pattern, linkages, modes};
-use rocking_codegen::report::{Compact, latex};
 use rocking_codegen::joints::Joints;
+use rocking_codegen::pattern::{Pattern, linkages, modes};
 use rocking_codegen::report::moving_latex;
+use rocking_codegen::report::{Compact, latex};
 use rocking_codegen::symbolic::latex::width;
 use rocking_codegen::symbolic::{Arena, Environment, Expr};
 use std::process::Command;
@@ -217,14 +217,15 @@ fn symbols(line: &str) -> usize {
 fn no_line_of_a_display_leaves_the_page() {
     let largest = [(6, "1.1"), (6, "1.41"), (8, "1.1094"), (10, "1.1")];
     let large = largest.iter().map(|(blocks, mode)| ((*mode).to_string(), latex(&pattern(*blocks, mode))));
-    let states = ["(+>,f)", "(f,f,f)", "(0,+<u,0>,-)", "(+,-,+,f)"].map(|states| {
-        (states.to_string(), moving_latex(&Joints::parse(states).expect("states that slide or fly")))
-    });
+    let states = ["(+>,f)", "(f,f,f)", "(0,+<u,0>,-)", "(+,-,+,f)"]
+        .map(|states| (states.to_string(), moving_latex(&Joints::parse(states).expect("states that slide or fly"))));
     for (mode, text) in documents(4).chain(large).chain(states) {
         let displays = text.split("\\begin{align").skip(1).filter_map(|rest| rest.split_once("\\end{align"));
         for (display, _) in displays {
             let plain = |line: &str| {
-                ["\\notag", "\\\\[1ex]", "\\\\[0.5ex]", "\\\\"].iter().fold(line.to_string(), |line, part| line.replace(part, ""))
+                ["\\notag", "\\\\[1ex]", "\\\\[0.5ex]", "\\\\"]
+                    .iter()
+                    .fold(line.to_string(), |line, part| line.replace(part, ""))
             };
             let rows: Vec<String> = display.lines().filter(|line| line.contains('&')).map(plain).collect();
             let sides: Vec<(&str, &str)> = rows.iter().filter_map(|row| row.split_once('&')).collect();

@@ -3,11 +3,11 @@
 use crate::component::{Direction, points_down};
 use crate::motion::Motion;
 use crate::piece::{Line, Piece};
+use crate::plausibility::scaled_too_far;
 use crate::record::Record;
 use crate::segment::Segment;
 use crate::spans::{Span, divide, overlay};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
 
 /// Longest time `[s]` between the first samples of two components of one record. More apart, the records are of different earthquakes.
 const LONGEST_RECORDING: f64 = 600.0;
@@ -47,7 +47,8 @@ impl Excitation {
         for (name, direction, motion) in motions {
             let Some(motion) = motion else { continue };
             for record in records(motion) {
-                let own = record.warnings().iter().cloned().chain(misused(record, direction));
+                let scaled = scaled_too_far(record.peak(), record.scale());
+                let own = record.warnings().iter().cloned().chain(misused(record, direction)).chain(scaled);
                 warnings.extend(own.map(|warning| format!("{}: {warning}", called(record, name))));
             }
             let subject = match motion {
@@ -58,13 +59,6 @@ impl Excitation {
         }
         warnings.extend(self.misaligned(called));
         warnings
-    }
-
-    /// The warnings of several ground motions, each once, in the order of their first appearance.
-    pub fn warnings_of_all(excitations: impl IntoIterator<Item = Excitation>) -> Vec<String> {
-        let mut seen = BTreeSet::new();
-        let all = excitations.into_iter().flat_map(|excitation| excitation.warnings());
-        all.filter(|warning| seen.insert(warning.clone())).collect()
     }
 
     /// The warning of components whose first samples are not simultaneous by the clock of the station.
@@ -246,6 +240,16 @@ mod tests {
         assert!(without_file.warnings()[0].starts_with("the horizontal record is cut: it begins at t = -1.5000 s"));
         assert!(without_file.warnings_named("first")[0].starts_with("record first is cut: "));
         assert!(of(record.named("quake.csv")).warnings_named("first")[0].starts_with("record quake.csv is cut: "));
+    }
+
+    #[test]
+    fn a_record_that_is_scaled_beyond_any_is_said() {
+        let of = |factor: f64| {
+            let record = Record::new(vec![0.0, 4.0, -3.0], 0.01, 0.0).and_then(|record| record.scaled(factor));
+            Excitation { horizontal: record.ok().map(Motion::Record), vertical: None }.warnings()
+        };
+        assert!(of(-100.0)[0].contains("scaled by -100 it has a peak of 40.8 g"), "{:?}", of(-100.0));
+        assert!(of(10.0).is_empty() && of(0.0).is_empty());
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What is possible but hardly a record of an earthquake: a warning each.
 
-use crate::unit::AccelerationUnit;
+use crate::unit::{AccelerationUnit, DEFAULT_GRAVITY};
 
 /// Numbers that stand for missing samples in the files of many programs.
 const MISSING: [f64; 3] = [-999.0, -9999.0, -99999.0];
@@ -45,6 +45,14 @@ pub(crate) fn doubtful_samples(accel: &[f64], unit: AccelerationUnit, gravity: f
         ));
     }
     warnings
+}
+
+/// Warning that a factor other than one makes a peak `[m/s²]` that no ground has had, and the record's own is none.
+pub(crate) fn scaled_too_far(peak: f64, scale: f64) -> Option<String> {
+    let (peak, own) = (peak / DEFAULT_GRAVITY, (peak / scale).abs() / DEFAULT_GRAVITY);
+    (peak > LARGEST_PEAK_IN_G && own <= LARGEST_PEAK_IN_G).then(|| {
+        format!("scaled by {scale} it has a peak of {peak:.1} g, which is hardly one; is the size to which it is scaled in another unit?")
+    })
 }
 
 /// Warning about a sampling interval `[s]`.

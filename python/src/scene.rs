@@ -202,7 +202,7 @@ impl Scene {
 
     #[getter]
     fn warnings(&self) -> Vec<String> {
-        self.scene.excitation.warnings()
+        self.scene.warnings()
     }
 
     /// All of it, to be pickled.

@@ -45,7 +45,7 @@ impl<'a> Run<'a> {
     /// If the response is not that of the scene, but has another number of blocks.
     pub fn new(scene: &'a Scene, response: &'a Response) -> Run<'a> {
         response.assert_of(&scene.column);
-        let mut warnings = scene.excitation.warnings();
+        let mut warnings = scene.warnings();
         warnings.extend(cut(scene, response));
         warnings.extend(response.warnings());
         let (scene_text, wall_seconds, outdated) = (SceneText::default(), 0.0, vec![COMPANIONS.into()]);

@@ -241,9 +241,14 @@ impl Table {
 
     /// The error that a key is not given, or that it is misspelt.
     pub fn missing(&self, key: &str, remedy: &str) -> Wrong {
-        let mut unasked = self.entries.iter().filter(|entry| !self.has_asked(&entry.key));
-        if let Some(misspelt) = unasked.find(|entry| is_slip(key, &entry.key)) {
+        let unasked = || self.entries.iter().filter(|entry| !self.has_asked(&entry.key));
+        if let Some(misspelt) = unasked().find(|entry| is_slip(key, &entry.key)) {
             return self.unknown(misspelt, format!("did you mean `{key}`?"));
+        }
+        // Another key that would do in its place: `heigth` for `height`, where `half_height` is missing.
+        let other = |entry| Some((entry, self.meant(entry).filter(|known| !self.has(known))?));
+        if let Some((misspelt, known)) = unasked().find_map(other) {
+            return self.unknown(misspelt, format!("did you mean `{known}`?"));
         }
         let (place, key) = (self.place(), self.dotted(key));
         Wrong { place, key, problem: "it is missing".into(), remedy: remedy.into(), cause: Cause::Key }
@@ -445,14 +450,7 @@ impl Table {
             }
         });
         let Some(unknown) = self.entries.iter().find(|entry| !self.has_asked(&entry.key)) else { return Ok(()) };
-        let distance = |known: &&Cow<str>| {
-            let lower = [known.as_ref(), &*unknown.key].map(str::to_lowercase);
-            (strsim::levenshtein(&lower[0], &lower[1]), strsim::levenshtein(known, &unknown.key))
-        };
-        let nearest = self.asked.iter().min_by_key(distance).map(Cow::as_ref);
-        let usual = USUAL_NAMES.iter().find(|(other, key)| **other == *unknown.key && self.has_asked(key));
-        let meant = usual.map(|(_, key)| *key).or(nearest.filter(|known| is_slip(known, &unknown.key)));
-        let remedy = match (meant, self.table_of(&unknown.key)) {
+        let remedy = match (self.meant(unknown), self.table_of(&unknown.key)) {
             (Some(known), _) => format!("did you mean `{known}`?"),
             (None, Some(table)) => format!("write it below [{table}]"),
             _ if !self.name.is_empty() && OF_NO_TABLE.contains(&&*unknown.key) => {
@@ -467,6 +465,17 @@ impl Table {
             _ => format!("known here are {}: take one of these, or remove it", self.asked.join(", ")),
         };
         Err(self.unknown(unknown, remedy))
+    }
+
+    /// The key, of those known here so far, that an unknown one most likely means.
+    fn meant(&self, unknown: &Entry) -> Option<&str> {
+        let distance = |known: &&Cow<str>| {
+            let lower = [known.as_ref(), &*unknown.key].map(str::to_lowercase);
+            (strsim::levenshtein(&lower[0], &lower[1]), strsim::levenshtein(known, &unknown.key))
+        };
+        let nearest = self.asked.iter().min_by_key(distance).map(Cow::as_ref);
+        let usual = USUAL_NAMES.iter().find(|(other, key)| **other == *unknown.key && self.has_asked(key));
+        usual.map(|(_, key)| *key).or(nearest.filter(|known| is_slip(known, &unknown.key)))
     }
 
     /// The other table of the scene to which a key belongs. `None` for keys of no table in [`OF_A_TABLE`], and where this table is of no scene.
@@ -558,7 +567,8 @@ const OF_A_TABLE: [(&str, &[&str]); 4] = [
 ];
 
 /// What the field calls keys of a scene, with their names.
-const USUAL_NAMES: [(&str, &str); 3] = [("mu", "friction"), ("g", "gravity"), ("duration", "t_end")];
+const USUAL_NAMES: [(&str, &str); 4] =
+    [("mu", "friction"), ("g", "gravity"), ("duration", "t_end"), ("weight", "mass")];
 
 /// Whether `written` may be a misspelling of `key`, `key` in capitals, or the last part of `key`, as `width` is of `half_width`.
 fn is_slip(key: &str, written: &str) -> bool {

@@ -110,6 +110,11 @@ impl Template {
         Reader { text: &self.text, file: &self.file, records: Some(&self.records), with_rows: true }
     }
 
+    /// The key that stands in the file for a dotted key that does not, and that gives way to it: `amplitude` for its `amplitude_g`.
+    pub(crate) fn stand_in(&self, key: &str) -> Option<String> {
+        self.root.stand_in(key)
+    }
+
     /// Whether the scene has a table of this dotted name.
     pub(crate) fn has_table(&self, name: &str) -> bool {
         self.root.has_table(name)

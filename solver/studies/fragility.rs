@@ -92,6 +92,9 @@ pub struct Fragility {
     pub records: usize,
     /// Runs by level, from the lowest up.
     pub counts: Vec<Count>,
+    /// Number of runs that count as having reached the state because the column was lost, and whose peak or slide was not above the limit then: another
+    /// block has fallen. Zero for `uplift` and `overturned`.
+    pub by_loss: usize,
     /// The curve of the decided runs.
     pub fit: Fit,
     /// The curves if none, and if all, of the undecided runs reached the state. They bound what leaving these runs out can do: a run of long shaking
@@ -179,6 +182,7 @@ impl Fragility {
             state,
             layout,
             records: table.records.len(),
+            by_loss: runs.iter().filter(|run| state.concerns(run) && state.is_by_loss(run)).count(),
             fit,
             bounds,
             goodness: curve.map(|curve| Goodness::of(&counts, &curve, layout)),
@@ -318,7 +322,7 @@ mod tests {
                 "no run below 1.6 reaches the state, and some at 1.6 do; go higher",
                 (|record, level| level == 1.6 && record == 0) as fn(usize, f64) -> bool,
             ),
-            ("every run above 0.2 reaches the state, and some at 0.2 do; begin lower", |record, level| {
+            ("every run above 0.2 reaches the state, and some at 0.2 do; put levels around 0.2", |record, level| {
                 level > 0.2 || record == 0
             }),
             ("no run below 0.4 reaches the state and every run above does; put levels around 0.4", |record, level| {
@@ -395,6 +399,27 @@ mod tests {
         let told =
             format!("no bands: only {} of 1000 resampled sets have a curve; 2 records are too few", bands.fitted);
         assert!(found.statements().contains(&told), "{:?}", found.statements());
+    }
+
+    /// The first of two blocks never moves, and the second falls: the state of the first counts these falls, and says so.
+    #[test]
+    fn falls_of_other_blocks_are_told() {
+        let runs: Vec<Observation> = (0..4)
+            .flat_map(|record| [0.5, 1.0].map(|level| run(record, level, level > 0.7 || record == 0)))
+            .map(|run| Observation { peaks: vec![0.0, if run.is_lost() { 9.0 } else { 0.2 }], ..run })
+            .collect();
+        let of = |state: &str| Fragility::of(&runs, state.parse().expect("a state"), &FragilityOptions::default());
+        let told =
+            "5 of 5 run(s) with the state have it because the column was lost, without a peak or slide above the limit";
+        assert_eq!(of("peak_1 > 0.5").by_loss, 5);
+        assert!(
+            of("peak_1 > 0.5").statements().iter().any(|statement| statement == told),
+            "{:?}",
+            of("peak_1 > 0.5").statements()
+        );
+        for state in ["peak_2 > 0.5", "peak > 0.5", "overturned", "uplift"] {
+            assert_eq!(of(state).by_loss, 0, "{state}");
+        }
     }
 
     /// Two columns under the same records: one falls from 0.5 on, the other from 1.5 on. Neither comes back.

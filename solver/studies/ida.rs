@@ -187,15 +187,23 @@ impl Ida {
         &self.records
     }
 
-    /// Warnings about its records, a sentence each, each once ([`Excitation::warnings`]).
+    /// Warnings about its scene and its records, a sentence each, each once ([`Scene::warnings`]).
     pub fn warnings(&self) -> Vec<String> {
         let mut seen = HashSet::new();
+        let without_motion = Scene { excitation: Excitation::default(), ..self.scene.clone() };
+        let has_vertical = self.records.iter().any(|record| record.vertical.is_some());
+        let left_out = self.scene.excitation.vertical.is_some() && !has_vertical;
+        let of_scene = left_out.then(|| {
+            "the vertical ground motion of the scene is left out: runs have the motion of their records alone, vertical components with `vertical = true` in [records]"
+                .to_string()
+        });
+        let of_scene = of_scene.into_iter().chain(without_motion.warnings());
         let of = |record: &StudyRecord| {
             let [horizontal, vertical] =
                 [Some(&record.horizontal), record.vertical.as_ref()].map(|own| own.cloned().map(Motion::Record));
             Excitation { horizontal, vertical }.warnings_named(&record.name)
         };
-        self.records.iter().flat_map(of).filter(|warning| seen.insert(warning.clone())).collect()
+        of_scene.chain(self.records.iter().flat_map(of)).filter(|warning| seen.insert(warning.clone())).collect()
     }
 
     /// Its measure.

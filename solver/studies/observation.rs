@@ -196,6 +196,14 @@ impl LimitState {
         }
     }
 
+    /// Whether a run has the state by the loss of its column alone: the peak or slide of the state, as far as it is known, is not above the limit. Of
+    /// `uplift` and `overturned` the loss is part.
+    pub(super) fn is_by_loss(&self, run: &Observation) -> bool {
+        let is_measured = matches!(self, LimitState::Peak { .. } | LimitState::Slide { .. });
+        let as_if_standing = || Observation { fate: Some(Fate::Rocks), ..run.clone() };
+        run.is_lost() && is_measured && self.is_reached(&as_if_standing()) != Some(true)
+    }
+
     /// Whether a run reached the state. `None` for a failed run, and for an undecided run that had not reached the state. `None` as well if the
     /// column is not lost and the observation has no such block or no slides.
     pub fn is_reached(&self, run: &Observation) -> Option<bool> {
@@ -304,6 +312,10 @@ mod tests {
         );
         // No friction, no slide; no third block.
         assert_eq!(["slide > 0", "peak_3 > 0"].map(|state| reached(state, &standing)), [None, None]);
+        let by_loss = |state: &str, run: &Observation| state.parse::<LimitState>().expect("a state").is_by_loss(run);
+        let states = ["peak > 0.1", "peak_1 > 0.15", "slide > 9", "uplift", "overturned"];
+        assert_eq!(states.map(|state| by_loss(state, &lost)), [false, true, true, false, false]);
+        assert!(states.iter().all(|state| !by_loss(state, &standing)));
         let undecided = run(Some(Fate::Undetermined), 0.4);
         assert_eq!(
             ["peak > 0.3", "peak > 0.5", "overturned"].map(|state| reached(state, &undecided)),

@@ -4,7 +4,7 @@ use super::axes::{Axis, Combine};
 use super::outcome::Ask;
 use crate::scene::{Scene, Wanted};
 use crate::scene_file::{SceneFileError, Setting, Template};
-use rocking_ground::Excitation;
+use std::collections::HashSet;
 use std::ops::Range;
 
 /// A base scene and what varies.
@@ -42,13 +42,30 @@ impl Sweep {
         evenly_spread(0..self.len(), most)
     }
 
-    /// Warnings about the ground motions of these points, a sentence each, each once: of all of them, or of `most` evenly spread ones.
+    /// Warnings, a sentence each, each once: about axes, and about the scenes of these points ([`Scene::warnings`]), of all of them or of `most` evenly spread ones.
     ///
     /// # Panics
     /// If the sweep has no such points.
     pub fn warnings(&self, points: Range<usize>, most: usize) -> Vec<String> {
         let scenes = evenly_spread(points, most).filter_map(|point| self.scene(point).ok());
-        Excitation::warnings_of_all(scenes.map(|scene| scene.excitation))
+        let mut seen = HashSet::new();
+        let all =
+            self.axes.iter().filter_map(|axis| self.rescaled(axis)).chain(scenes.flat_map(|scene| scene.warnings()));
+        all.filter(|warning| seen.insert(warning.clone())).collect()
+    }
+
+    /// The key of the base scene whose place an axis takes: `amplitude` for an axis over `amplitude_g`. `None` for an axis over a key that is there, or new.
+    pub fn replaced(&self, axis: &Axis) -> Option<String> {
+        self.template.stand_in(&axis.key)
+    }
+
+    /// Warning of an axis of factors that takes the place of a size to which the base scene scales its record.
+    fn rescaled(&self, axis: &Axis) -> Option<String> {
+        let size = self.replaced(axis).filter(|_| axis.key.ends_with(".scale"))?;
+        Some(format!(
+            "the axis {} takes the place of {size} in the base scene: it multiplies the record as its file has it",
+            axis.key
+        ))
     }
 
     /// The axes that are not sampled.

@@ -65,11 +65,16 @@ impl Trust {
                 .to_string(),
             false => {
                 let (known, spacing) = (self.known_until(), self.spacing(self.known_until()));
+                let earlier = self.slide_horizon.filter(|slides| *slides < known);
+                let slides = |before: &str, after: &str| {
+                    earlier.map_or(String::new(), |slides| format!(", slides {before} t = {slides:.4} s{after}"))
+                };
                 match self.is_open_by_inputs() {
                     true => format!(
-                        "a change of the inputs by a millionth alters the motion from t = {known:.4} s on{spacing}"
+                        "a change of the inputs by a millionth alters the motion from t = {known:.4} s on{}{spacing}",
+                        slides("from", " on")
                     ),
-                    false => format!("angles are known up to t = {known:.4} s only{spacing}"),
+                    false => format!("angles are known up to t = {known:.4} s only{}{spacing}", slides("up to", "")),
                 }
             }
         };
@@ -134,5 +139,31 @@ mod tests {
         };
         assert!(sentence(1.0).contains("t = 2.0000 s only (compared every 1.00 s)"), "{}", sentence(1.0));
         assert!(!sentence(0.05).contains("compared every"), "{}", sentence(0.05));
+    }
+
+    /// Slides may part before angles do.
+    #[test]
+    fn slides_have_a_horizon_of_their_own() {
+        let scene = Scene::new(Column::equal_blocks(1, 0.4, 1.6, 1.0, 9.81).expect("positive sizes"));
+        let (_, trust) = follow(&scene).expect("runs");
+        let sentence = |certain_at: f64, slide_horizon: Option<f64>| {
+            let (horizon, input_horizon, ends_at) = (6.0, 5.0, 60.0);
+            let open = Trust {
+                determined: false,
+                horizon,
+                input_horizon,
+                certain_at,
+                ends_at,
+                slide_horizon,
+                ..trust.clone()
+            };
+            open.sentence()
+        };
+        assert!(
+            sentence(9.0, Some(2.0))
+                .starts_with("angles are known up to t = 6.0000 s only, slides up to t = 2.0000 s;")
+        );
+        assert!(sentence(4.0, Some(2.0)).contains("motion from t = 5.0000 s on, slides from t = 2.0000 s on;"));
+        assert!([None, Some(6.0)].iter().all(|slides| !sentence(9.0, *slides).contains("slides")));
     }
 }

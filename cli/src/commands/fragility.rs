@@ -35,16 +35,15 @@ pub fn fragility(request: &arguments::Fragility) -> Result<(), Failure> {
         (request.replicates as usize, request.confidence, request.seed);
     (options.layout, options.differ_beside_level) = (request.layout, differ_beside_level);
     options.check().map_err(Failure::Bands)?;
-    // Curves of some of the rows do not take the place of those of all.
-    let kind = if request.conditions.is_empty() { "fragility" } else { "where-fragility" };
-    let out = request.out.clone().unwrap_or_else(|| beside(&request.table.with_extension("csv"), kind));
+    let rows: Vec<String> = request.conditions.iter().map(|(name, value)| format!("{name}={value}")).collect();
+    let out = request.out.clone().unwrap_or_else(|| curves_of(&request.table, &rows));
     if Format::of_output(&out)? != Format::Csv {
         return Err(Failure::OnlyCsv(out));
     }
     let outputs = [out.clone(), shares_beside(&out)].into_iter().chain(request.plot.clone());
     output::check(&outputs.collect::<Vec<_>>(), std::slice::from_ref(&request.table))?;
     let mut conclusions = Conclusions::of(&runs, &measure, &states, &options);
-    conclusions.rows = request.conditions.iter().map(|(name, value)| format!("{name}={value}")).collect();
+    conclusions.rows = rows;
     let mut report = conclusions.text();
     report.push_str(&conclusions.write_to(&out)?);
     if let Some(picture) = &request.plot {
@@ -76,9 +75,18 @@ fn lacking(state: &LimitState, peaks: usize, has_slides: bool) -> Option<String>
 
 /// Paths of the two tables beside the table of a study: of fragility curves and of shares.
 pub fn tables(table: &Path) -> [PathBuf; 2] {
-    let curves = beside(&table.with_extension("csv"), "fragility");
-    let shares = beside(&table.with_extension("csv"), "shares");
+    let curves = curves_of(table, &[]);
+    let shares = shares_beside(&curves);
     [curves, shares]
+}
+
+/// Path of the fragility curves beside a table, of all rows or of those for which conditions hold. Curves of some rows do not take the place of those of
+/// others: `TABLE-where-size.alpha=0.2-fragility.csv`.
+fn curves_of(table: &Path, conditions: &[String]) -> PathBuf {
+    let in_name = |sign: char| if sign.is_alphanumeric() || "=._-".contains(sign) { sign } else { '_' };
+    let named = |condition: &String| format!("where-{}-", condition.chars().map(in_name).collect::<String>());
+    let kind: String = conditions.iter().map(named).chain(["fragility".to_string()]).collect();
+    beside(&table.with_extension("csv"), &kind)
 }
 
 /// The table of shares beside one of curves.

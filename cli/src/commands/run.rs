@@ -219,7 +219,9 @@ fn account(scene: &Scene, response: &Response, followed: &Followed) -> String {
         // Blocks that fall slide and fly on: where they are at the end of the run is not where they stay.
         let when =
             if response.lost_block().is_some() { "slides when the run ends, in the fall" } else { "slides at the end" };
-        let _ = writeln!(text, "{when}{slides} cm; {flights} flight(s)");
+        let known = followed.trust().and_then(|trust| trust.slide_horizon);
+        let known = known.map_or(String::new(), |t| format!(" of this run (known up to t = {t:.4} s only)"));
+        let _ = writeln!(text, "{when}{known}{slides} cm; {flights} flight(s)");
     } else if response.sliding.is_some() && response.status != StopReason::Undetermined {
         let _ = writeln!(text, "friction holds: no block slides or flies");
     }

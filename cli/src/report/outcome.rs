@@ -194,7 +194,10 @@ fn stayed(results: &Results, report: &SlidingReport, moved: &[usize]) -> String 
     };
     let which = if moved.len() < all.len() { " that slid or flew" } else { "" };
     let places: String = moved.iter().map(place).collect();
-    format!("<p>Where the {bodies}{which} {verb}:</p><ul class=\"plain\">{places}</ul>\n")
+    let known = results.trust.as_ref().and_then(|trust| trust.slide_horizon).map_or(String::new(), |t| {
+        format!(" (in this run: slides are known up to {} s, and companions have others at the end)", milliseconds(t))
+    });
+    format!("<p>Where the {bodies}{which} {verb}{known}:</p><ul class=\"plain\">{places}</ul>\n")
 }
 
 /// A slide at the start, in brackets; empty if there is none.
@@ -224,9 +227,11 @@ pub fn tiles(results: &Results) -> String {
     let response = &results.response;
     let mut tiles = Vec::new();
     let largest = response.peak_theta.iter().copied().fold(0.0, f64::max);
-    let shares = response.peaks(&results.column).into_iter().filter(|share| share.is_finite());
-    let share = percent(shares.fold(0.0, f64::max));
-    tiles.push(("largest angle", degrees(largest), format!("{} rad; |θ|/α up to {share}", significant(largest, 4))));
+    let share = match response.peaks(&results.column).into_iter().fold(0.0, f64::max) {
+        f64::INFINITY => "a stack does not stand by itself".into(),
+        share => format!("|θ|/α up to {}", percent(share)),
+    };
+    tiles.push(("largest angle", degrees(largest), format!("{} rad; {share}", significant(largest, 4))));
     tiles.push(("impacts", response.impacts.to_string(), other_events(&response.events)));
     let total: f64 = response.time_in_mode.values().sum();
     if let Some((mode, time)) = response.modes_by_time().first().copied().filter(|_| total > 0.0) {

@@ -12,7 +12,8 @@ const NO_ANSWERS: &str = "the other runs have no answer: see their errors, or le
 
 impl Fragility {
     /// Findings in words, one sentence each, with numbers in the unit of the measure: the curve or why there is none, extrapolation, bands,
-    /// few records, goodness of fit, shares that are not monotonic, records that are not named, undecided runs.
+    /// few records, goodness of fit, shares that are not monotonic, records that are not named, runs with the state by the loss of the column alone,
+    /// undecided runs.
     pub fn statements(&self) -> Vec<String> {
         let sentences = [
             Some(self.fit_in_words()),
@@ -22,9 +23,21 @@ impl Fragility {
             self.goodness_in_words(),
             self.not_monotonic(),
             self.unnamed(),
+            self.lost_otherwise(),
             self.left_out(),
         ];
         sentences.into_iter().flatten().collect()
+    }
+
+    /// Warning that the state counts falls of other blocks; `None` if it does not.
+    fn lost_otherwise(&self) -> Option<String> {
+        let reached: usize = self.counts.iter().map(|count| count.reached).sum();
+        (self.by_loss > 0 && reached > 0).then(|| {
+            format!(
+                "{} of {reached} run(s) with the state have it because the column was lost, without a peak or slide above the limit",
+                self.by_loss
+            )
+        })
     }
 
     /// Warning that runs are left out, and what that can do to the curve; `None` if there are none.
@@ -146,7 +159,9 @@ impl Fragility {
                         format!("{none}no run below {level} reaches the state, and some at {level} do; go higher")
                     }
                     [false, true] => {
-                        format!("{none}every run above {level} reaches the state, and some at {level} do; begin lower")
+                        format!(
+                            "{none}every run above {level} reaches the state, and some at {level} do; put levels around {level}"
+                        )
                     }
                     _ => format!(
                         "{none}no run below {level} reaches the state and every run above does; put levels around {level}"

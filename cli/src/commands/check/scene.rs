@@ -6,13 +6,11 @@ use crate::ground_in_words;
 use crate::number::{self, coefficients, fixed, significant, widths};
 use crate::terminal::{json, print, warn};
 use crate::text::{printable, shown};
-use rocking::column::Shape;
-use rocking::scene::{Initial, Look};
+use rocking::scene::Initial;
 use rocking::scene_file::{Derived, SceneFile};
 use rocking::{Block, Column, Friction, Motion, Restitution, Scene};
 use serde::{Serialize, Serializer};
 use std::fmt::Write as _;
-use std::ops::RangeInclusive;
 use std::path::Path;
 
 /// Reads a scene and explains it.
@@ -49,7 +47,7 @@ struct Findings {
     openings: Vec<Option<f64>>,
     method: &'static str,
     rows: u64,
-    /// Warnings of the readers of record files.
+    /// Warnings about records and numbers ([`Scene::warnings`]).
     warnings: Vec<String>,
 }
 
@@ -193,13 +191,6 @@ struct MotionFindings {
     left_with: Option<[f64; 2]>,
 }
 
-/// Height above which a column has most likely been given in cm or mm `[m]`. The tallest columns of stone have some thirty.
-const TALL: f64 = 60.0;
-
-/// Densities that have most likely been given in t/m³ `[kg/m³]`. One alone stands where nothing is given, and in scenes of which only ratios of
-/// masses count.
-const T_PER_M3: RangeInclusive<f64> = 1.2..=4.0;
-
 /// Serialises the description of a motion, without the samples of records.
 fn described<S: Serializer>(motion: &Motion, serializer: S) -> Result<S::Ok, S::Error> {
     motion.description().serialize(serializer)
@@ -264,7 +255,7 @@ impl Findings {
             slides: column.slides().to_vec(),
             method: scene.options.method.stepper().name(),
             rows: scene.row_times().count() as u64,
-            warnings: scene.excitation.warnings(),
+            warnings: scene.warnings(),
         }
     }
 
@@ -278,6 +269,7 @@ impl Findings {
         if let Some(state) = initial(scene) {
             let _ = writeln!(text, "\nat t = 0: {state}");
             text.push_str(thresholds::note_of_places(scene));
+            self.past_balance(&mut text);
         }
         self.ground(&mut text, scene);
         self.friction(&mut text, scene);
@@ -297,6 +289,25 @@ impl Findings {
         text
     }
 
+    /// Notes blocks that begin past their balance; of blocks that are placed one by one the stacks say nothing.
+    fn past_balance(&self, text: &mut String) {
+        if !self.initial.x.is_empty() {
+            return;
+        }
+        let angles = self.initial.theta.iter().zip(&self.stacks);
+        let past = angles.filter(|(theta, stack)| stack.slenderness > 0.0 && theta.abs() > stack.slenderness);
+        for (theta, stack) in past {
+            let _ = writeln!(
+                text,
+                "note: block {} begins past its balance: at {} rad ({:.1}°), with a slenderness of {:.4} rad of the stack from there up",
+                stack.interface,
+                significant(theta.abs(), 5),
+                theta.abs().to_degrees(),
+                stack.slenderness
+            );
+        }
+    }
+
     fn column(&self, text: &mut String, scene: &Scene) {
         let whole = &self.stacks[0];
         let gravity = scene.column.gravity();
@@ -312,19 +323,6 @@ impl Findings {
             whole.stack.radius(),
             whole.frequency_parameter
         );
-        if whole.stack.height > TALL {
-            text.push_str("note: no column is as tall; sizes are in m\n");
-        }
-        let density = |(block, look): (&Block, &Look)| {
-            let volume = look.shape.measure([block.bottom_half_width, block.top_half_width], block.half_height);
-            (look.shape == Shape::Drum).then(|| block.mass / volume)
-        };
-        let densest = self.blocks.iter().zip(&scene.looks).filter_map(density).reduce(f64::max);
-        if let Some(density) = densest.filter(|density| T_PER_M3.contains(density)) {
-            let density = significant(density, 4);
-            let _ =
-                writeln!(text, "note: drums of {density} kg/m³; stone has 1500 to 3000 kg/m³, which are 1.5 to 3 t/m³");
-        }
         self.table_of_blocks(text);
         self.table_of_stacks(text, &scene.column);
         self.restitution(text, scene);

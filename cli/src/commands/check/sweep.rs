@@ -3,7 +3,7 @@
 use crate::commands::sweep;
 use crate::error::Failure;
 use crate::terminal::{json, print, warn_of_some};
-use crate::text::{distinct, printable, shell_word, shown};
+use crate::text::{printable, shell_word, shown};
 use rocking::scene_file::Setting;
 use rocking::sweep::{Axis, Combine, Sweep};
 use serde::Serialize;
@@ -34,20 +34,18 @@ struct ScenesRead {
     first_refusal: Option<String>,
     /// Number of the scenes read whose ground motion continues after `solver.t_end`.
     cut: usize,
-    /// Warnings about their ground motions, each once.
+    /// Warnings about the axes and these scenes, each once.
     warnings: Vec<String>,
 }
 
 impl ScenesRead {
     fn of(sweep: &Sweep) -> ScenesRead {
         let mut found = ScenesRead::default();
-        let mut warnings = Vec::new();
         for index in sweep.evenly_spread(sweep::POINTS_READ) {
             found.read += 1;
             match sweep.scene(index) {
                 Ok(scene) => {
                     found.cut += usize::from(scene.excitation.moves_after(scene.options.t_end));
-                    warnings.extend(scene.excitation.warnings());
                 }
                 Err(error) => {
                     found.refused += 1;
@@ -55,7 +53,7 @@ impl ScenesRead {
                 }
             }
         }
-        found.warnings = distinct(warnings);
+        found.warnings = sweep.warnings(0..sweep.len(), sweep::POINTS_READ);
         found
     }
 }
@@ -64,6 +62,8 @@ impl ScenesRead {
 #[derive(Debug, Serialize)]
 struct AxisFindings {
     key: String,
+    /// Key of the base scene whose place it takes; `None` if there is none.
+    replaces: Option<String>,
     values: usize,
     from: String,
     to: String,
@@ -81,7 +81,7 @@ pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
         }
         let [from, to] =
             [values.first(), values.last()].map(|value| value.map_or_else(String::new, ToString::to_string));
-        AxisFindings { key: axis.key.clone(), values: axis.values.len(), from, to }
+        AxisFindings { key: axis.key.clone(), replaces: sweep.replaced(axis), values: axis.values.len(), from, to }
     };
     let findings = Findings {
         scene: sweep.template.file().into(),
@@ -107,8 +107,9 @@ pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
     let Findings { scene, combine, points, axes, columns, scenes } = findings;
     let ScenesRead { read, refused, first_refusal, cut, .. } = scenes;
     let mut text = format!("{}: a valid sweep of {points} point(s), {combine}\n", shown(path));
-    for AxisFindings { key, values, from, to } in axes {
-        let _ = writeln!(text, "  {key}: {values} value(s), from {} to {}", printable(&from), printable(&to));
+    for AxisFindings { key, replaces, values, from, to } in axes {
+        let replaces = replaces.map_or(String::new(), |other| format!(", in place of {other} in the base scene"));
+        let _ = writeln!(text, "  {key}: {values} value(s), from {} to {}{replaces}", printable(&from), printable(&to));
     }
     let _ = writeln!(text, "  columns of the table: {}", printable(&columns.join(", ")));
     let which = if read == points { "all points".into() } else { format!("{read} points, evenly spread,") };
