@@ -18,8 +18,15 @@ use rocking::{Block, Column, EventKind, ModeName, StopReason};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
-/// More rows than this are thinned: a page of a few megabytes opens on a phone, one of a hundred does not.
+/// Rows are thinned to so many at most, and to so many angles: a page of a few megabytes opens on a phone, one of a hundred does not.
 const MOST_ROWS: usize = 20_000;
+const MOST_ANGLES: usize = 100_000;
+
+/// Of more events than this, those of an instant have one frame before and one after. Drums that come to rest in a chatter have tens of thousands.
+const MOST_EVENTS: usize = 2_000;
+
+/// Length of an instant `[s]`: no screen shows what is nearer.
+const INSTANT: f64 = 1e-3;
 
 /// Digits behind the point of an angle `[rad]`: at the time of a row, the player shows the angles of the row to 1e-9 rad.
 const ANGLE_DIGITS: usize = 10;
@@ -84,22 +91,36 @@ fn joints(column: &Column, theta: &[f64], pattern: &Pattern, places: &[[f64; 2]]
 
 /// Stride of the rows: one of this number of rows is kept.
 fn stride(results: &Results) -> usize {
-    results.response.samples.len().div_ceil(MOST_ROWS)
+    results.response.samples.len().div_ceil(MOST_ROWS.min(MOST_ANGLES / results.column.len()))
+}
+
+/// The events that have their frames in common: each by itself or, of very many, those of an instant.
+fn instants(events: &[Event]) -> Vec<&[Event]> {
+    let length = if events.len() > MOST_EVENTS { INSTANT } else { 0.0 };
+    let (mut instants, mut rest) = (Vec::new(), events);
+    while let Some(first) = rest.first() {
+        let within = rest.iter().take_while(|event| event.t - first.t < length).count().max(1);
+        let (instant, others) = rest.split_at(within);
+        instants.push(instant);
+        rest = others;
+    }
+    instants
 }
 
 /// All frames in order of time.
 fn frames<'a>(results: &'a Results, ground: &Ground) -> Vec<Frame<'a>> {
     let rows = &results.response.samples;
     let stride = stride(results);
-    let mut frames = Vec::with_capacity(rows.len() / stride + 2 * results.response.events.len() + 1);
-    let mut events = results.response.events.iter().peekable();
+    let instants = instants(&results.response.events);
+    let mut frames = Vec::with_capacity(rows.len() / stride + 2 * instants.len() + 1);
+    let mut instants = instants.into_iter().peekable();
     let last = rows.len() - 1;
     for (index, row) in rows.iter().enumerate() {
-        while let Some(event) = events.next_if(|event| event.t <= row.t) {
-            frames.extend(sides(&results.column, event, ground.at(results, index, event.t)));
+        while let Some(instant) = instants.next_if(|instant| instant[0].t <= row.t) {
+            frames.extend(sides(&results.column, instant, |t| ground.at(results, index, t)));
         }
-        // A row at the time of an event is left out: the event gives the frames before and after.
-        let is_reported = frames.last().is_some_and(|frame| frame.t == row.t);
+        // A row at the time of an event or within an instant is left out: events give the frames before and after.
+        let is_reported = frames.last().is_some_and(|frame| frame.t >= row.t);
         if !is_reported && (index % stride == 0 || index == last) {
             let at = ground.at(results, index, row.t);
             let places: Vec<[f64; 2]> = row.blocks.iter().map(|block| block.place).collect();
@@ -114,23 +135,32 @@ fn frames<'a>(results: &'a Results, ground: &Ground) -> Vec<Frame<'a>> {
         }
     }
     // Overturning ends the rows. Events after the last row still belong to the run.
-    for event in events {
-        frames.extend(sides(&results.column, event, ground.at(results, last, event.t)));
+    for instant in instants {
+        frames.extend(sides(&results.column, instant, |t| ground.at(results, last, t)));
     }
     frames
 }
 
-fn sides<'a>(column: &Column, event: &'a Event, ground: [[f64; 2]; 2]) -> [Frame<'a>; 2] {
-    let places: Vec<[f64; 2]> = event.blocks.iter().map(|block| block.place).collect();
-    let side = |pattern: &Pattern, omega| Frame {
-        t: event.t,
-        theta: &event.theta,
-        omega,
-        pattern: pattern.clone(),
-        joints: joints(column, &event.theta, pattern, &places),
-        ground,
+/// The frames just before the first event of an instant and just after its last one; `ground` gives the ground's motion at a time.
+fn sides<'a>(
+    column: &Column,
+    instant: &'a [Event],
+    ground: impl Fn(f64) -> [[f64; 2]; 2],
+) -> impl Iterator<Item = Frame<'a>> {
+    let side = |event: &'a Event, pattern: &Pattern, omega: &'a [f64]| {
+        let places: Vec<[f64; 2]> = event.blocks.iter().map(|block| block.place).collect();
+        Frame {
+            t: event.t,
+            theta: &event.theta,
+            omega,
+            pattern: pattern.clone(),
+            joints: joints(column, &event.theta, pattern, &places),
+            ground: ground(event.t),
+        }
     };
-    [side(&event.before, &event.omega_before), side(&event.after, &event.omega_after)]
+    let before = instant.first().map(|event| side(event, &event.before, &event.omega_before));
+    let after = instant.last().map(|event| side(event, &event.after, &event.omega_after));
+    before.into_iter().chain(after)
 }
 
 /// Displacement of the ground at the rows, for display.
@@ -371,6 +401,9 @@ pub fn notes(results: &Results) -> String {
     if stride > 1 {
         notes.push(format!("The run is long: one row in {stride} of response.csv is kept here, and every event."));
     }
+    if results.response.events.len() > MOST_EVENTS {
+        notes.push("The run has very many events: those within a millisecond are drawn as one. The line below the picture names each.".into());
+    }
     notes.iter().map(|note| format!("<p class=\"note\">{note}</p>\n")).collect()
 }
 
@@ -384,6 +417,25 @@ mod tests {
         let times: Vec<f64> = (0..=(100.0 * end).round() as usize).map(|place| 0.01 * place as f64).collect();
         let accelerations: Vec<f64> = times.iter().map(|t| acceleration(*t)).collect();
         displaced(&times, &accelerations, is_pulse)
+    }
+
+    #[test]
+    fn of_very_many_events_those_of_an_instant_are_one() {
+        let event = |t: f64| -> Event {
+            let list = |text: &str| serde_json::from_str::<Value>(text).expect("JSON");
+            let fields = json!({ "t": t, "kind": "impact", "before": [1], "after": [-1], "mode_before": "1.1", "mode": "1.1", "mirrored": true,
+                "theta": [0.0], "omega_before": [-0.1], "omega_after": [-0.09], "energy_lost": 0.1, "interfaces": [1], "impulses": list("[]") });
+            serde_json::from_value(fields).expect("an event")
+        };
+        let at = |times: &[f64]| times.iter().map(|t| event(*t)).collect::<Vec<Event>>();
+        let few = at(&[0.5, 0.5, 0.5004]);
+        assert_eq!(instants(&few).len(), 3);
+        let times: Vec<f64> = (0..=MOST_EVENTS).map(|place| 1.0 + 0.3 * INSTANT * place as f64).collect();
+        let many = at(&times);
+        let instants = instants(&many);
+        assert!(instants.iter().rev().skip(1).all(|instant| instant.len() == 4), "{}", instants[0].len());
+        assert_eq!(instants.iter().map(|instant| instant.len()).sum::<usize>(), many.len());
+        assert!(instants.windows(2).all(|pair| pair[1][0].t - pair[0][0].t >= INSTANT));
     }
 
     #[test]

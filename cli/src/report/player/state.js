@@ -1,6 +1,7 @@
 // Plays a run: the column on a canvas, its curves on another, and the controls.
 //
-// What `#run` holds (lengths N per block or interface, base first; F frames in order of time, an event twice: before, after):
+// What `#run` holds (lengths N per block or interface, base first; F frames in order of time, an event twice: before, after; of very many events, those of
+// a millisecond twice together):
 //   blocks [[half-widths of base and top, half-height]] m; round [whether a drum]; contact [[half-length, centre on the lower face, on the upper face]] m; gravity m/s²; fills per link
 //   angles rad, the largest that the curves show, null for all
 //   patterns [{signs, text, mode, mirrored, link}]; rest, the name of the mode without open interfaces; events [{t, kind, at: interfaces from 0, mode and mirrored after}]
