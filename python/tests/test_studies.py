@@ -243,6 +243,8 @@ def test_figures_of_studies(study: rk.Study) -> None:
     same = study.fragility("uplift", replicates=0).plot(ax, label="first motion")
     assert same is ax and "first motion" in ax.get_legend_handles_labels()[1][1]
     none = study.fragility("peak > 100000")
+    lost = int(study.table.outcome.isin(["overturns", "collapses"]).sum())
+    assert none.by_loss == lost > 0 and study.fragility("overturned", replicates=0).by_loss == 0
     assert "Study of 90 runs" in repr(study) and "lognormal" in repr(none)
 
 

@@ -544,6 +544,8 @@ class Fragility:
     falls, resurrections : list
         Where the state is not monotonic in the level: pairs of levels between which the share of runs falls, and records that reach the state and do not at
         a higher level. No record is named where runs of a record differ in something beside their level; ``statements`` say so.
+    by_loss : int
+        Number of runs that have reached the state because the column was lost, with a peak or slide that was not above the limit then: another block fell.
     statements : list of str
         Results and warnings, a sentence each.
     """
@@ -566,6 +568,7 @@ class Fragility:
         self.goodness: dict[str, Any] | None = found["goodness"]
         self.falls: list[list[float]] = found["falls"]
         self.resurrections: list[str] = found["resurrections"]
+        self.by_loss: int = found["by_loss"]
 
     @property
     def counts(self) -> pd.DataFrame:
