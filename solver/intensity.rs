@@ -10,8 +10,9 @@
 use crate::column::Column;
 use rocking_ground::Measure;
 
-/// A measure of a record's intensity in a unit.
+/// A measure of a record's intensity in a unit, one of those that have a name.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Intensity {
     /// The measure.
     pub measure: Measure,

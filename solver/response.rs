@@ -527,7 +527,8 @@ impl Response {
             false => format!("generated ones exist up to {} blocks, with ROCKING_MAX_BLOCKS", rocking_codegen::LARGEST),
         };
         format!(
-            "this build has generated equations up to {most} blocks; larger modes ran on the generic ones, which are slower ({remedy})"
+            "this build has generated equations up to {most} blocks; larger modes, unless supplied equations have them, ran on the generic ones, which are \
+             slower ({remedy})"
         )
     }
 
@@ -588,7 +589,7 @@ fn four_digits(value: f64) -> String {
 }
 
 /// The name of a mode. In order, `rest` comes last.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum ModeName {
     /// The label `k.j` of a rocking mode.
     Mode(ModeLabel),

@@ -297,13 +297,27 @@ fn a_vertical_motion_of_the_scene_is_left_out_with_a_warning() {
     let folder = folder();
     let vertical = "[excitation.vertical]\nkind = \"sine-pulse\"\namplitude_g = 0.9\nomega = 6.0\n";
     folder.write("block.toml", folder.read("block.toml") + vertical);
-    let study = |vertical: &str| {
-        format!("{BLOCK}levels = [0.5]\n[records]\nfolder = \"records\"\ncomponent = \"H1\"\n{vertical}")
+    let study = |vertical: bool| {
+        format!("{BLOCK}levels = [0.5]\n[records]\nfolder = \"records\"\ncomponent = \"H1\"\nvertical = {vertical}\n")
     };
     let warning = "the vertical ground motion of the scene is left out";
-    assert!(run(&folder, &study("")).contains(warning));
-    assert!(folder.says("check study.toml").1.contains(warning));
-    assert!(!run(&folder, &study("vertical = true\n")).contains(warning));
+    for vertical in [false, true] {
+        assert!(run(&folder, &study(vertical)).contains(warning));
+        assert!(folder.says("check study.toml").1.contains(warning));
+    }
+    folder.write("block.toml", folder.read("block.toml").replace(vertical, ""));
+    assert!(!run(&folder, &study(true)).contains(warning));
+}
+
+/// Levels of PGV in cm/s: the records are scaled to peaks that no ground has had.
+#[test]
+fn levels_in_another_unit_give_a_warning() {
+    let folder = folder();
+    let study =
+        |level: f64| format!("{BLOCK}levels = [0.5, {level}]\n[records]\nfolder = \"records\"\ncomponent = \"H1\"\n");
+    let warning = "record records/A_H1.csv: it is scaled to a peak above 20 g";
+    assert!(run(&folder, &study(50.0)).contains(warning));
+    assert!(!run(&folder, &study(0.6)).contains(warning));
 }
 
 /// Killed again and again, it comes to the same bytes.

@@ -6,7 +6,7 @@ mod browser;
 #[cfg(unix)]
 mod in_chromium;
 
-use crate::common::{Folder, parsed, project};
+use crate::common::{Folder, assert_has, parsed, project};
 use serde_json::Value;
 use std::f64::consts::TAU;
 use std::path::PathBuf;
@@ -210,6 +210,37 @@ fn a_long_run_is_thinned_between_its_events() {
     for event in events {
         let time = event["t"].as_f64().expect("a time");
         assert_eq!(times.iter().filter(|one| **one == time).count(), 2, "{time}");
+    }
+}
+
+/// Twenty drums that come to rest in a chatter, and 10,001 rows of them: events of a millisecond have two frames in common, and no row is inside; every third
+/// row is kept.
+#[test]
+fn very_many_events_share_their_frames() {
+    let scene = "[column]\nblocks = 20\nhalf_width = 0.7\nhalf_height = 4.5\n[excitation.horizontal]\nkind = \"sine-pulse\"\n\
+        amplitude_uplift = 1.6\nomega_p = 4.0\n[solver]\nt_end = 20.0\n[output]\ndt = 0.002\n";
+    let page = run_text(&Folder::new(), "chatter", scene).page();
+    assert_has(&page, &["one row in 3 of response.csv", "those within a millisecond are drawn as one"]);
+    let data = data(&page);
+    let (times, events) = (numbers(&data["t"]), data["events"].as_array().expect("a list"));
+    let own: Vec<f64> = events.iter().map(|event| event["t"].as_f64().expect("a time")).collect();
+    assert!(own.len() > 2000 && times.is_sorted(), "{} events", own.len());
+    let mut instants: Vec<[f64; 2]> = Vec::new();
+    for t in own {
+        match instants.last_mut() {
+            Some([first, last]) if t - *first < 1e-3 => *last = t,
+            _ => instants.push([t, t]),
+        }
+    }
+    let frames = times.len();
+    assert!(
+        (3334 + instants.len()..=3334 + 2 * instants.len()).contains(&frames),
+        "{frames}, {} instants",
+        instants.len()
+    );
+    assert!(instants.len() < 1000 && instants.iter().flatten().all(|end| times.contains(end)));
+    for [first, last] in instants {
+        assert!(!times.iter().any(|t| first < *t && *t < last), "a frame between {first} and {last}");
     }
 }
 

@@ -220,7 +220,9 @@ fn no_line_of_a_display_leaves_the_page() {
     let states = ["(+>,f)", "(f,f,f)", "(0,+<u,0>,-)", "(+,-,+,f)"]
         .map(|states| (states.to_string(), moving_latex(&Joints::parse(states).expect("states that slide or fly"))));
     for (mode, text) in documents(4).chain(large).chain(states) {
-        let displays = text.split("\\begin{align").skip(1).filter_map(|rest| rest.split_once("\\end{align"));
+        let displays: Vec<_> =
+            text.split("\\begin{align").skip(1).filter_map(|rest| rest.split_once("\\end{align")).collect();
+        assert!(displays.len() > 2, "{mode}: {} displays", displays.len());
         for (display, _) in displays {
             let plain = |line: &str| {
                 ["\\notag", "\\\\[1ex]", "\\\\[0.5ex]", "\\\\"]
@@ -229,6 +231,7 @@ fn no_line_of_a_display_leaves_the_page() {
             };
             let rows: Vec<String> = display.lines().filter(|line| line.contains('&')).map(plain).collect();
             let sides: Vec<(&str, &str)> = rows.iter().filter_map(|row| row.split_once('&')).collect();
+            assert!(!sides.is_empty(), "{mode}: a display without equations: {display}");
             // Left sides stand in a column, as wide as the widest.
             let column = sides.iter().map(|(left, _)| width(left)).fold(0.0, f64::max);
             for (left, right) in sides {

@@ -148,6 +148,8 @@ impl Motion {
                 let waves = [wave(1.0, 1.0), wave(above, 0.5 * above), wave(below, 0.5 * below)];
                 (start, 2.0 * reach, Piece::sum(&waves))
             }
+            // Of a width that no envelope has, there is nothing: its end would not be after its start.
+            Motion::Gabor { gamma, .. } if gamma <= 0.0 => return Spans::new(),
             Motion::Gabor { velocity, omega, start, phase, gamma } => {
                 let reach = GABOR_REACH * gamma / omega;
                 (start, 2.0 * reach, Piece::Gabor { velocity, omega, centre: start + reach, phase, gamma })
@@ -240,7 +242,10 @@ impl Motion {
 
     /// End of the motion `[s]`; none for a motion without end.
     pub fn end(&self) -> Option<f64> {
-        self.pieces().last().map_or(Some(0.0), |span| span.end.is_finite().then_some(span.end))
+        match self {
+            Motion::Record(record) => Some(record.start() + record.duration()),
+            _ => self.pieces().last().map_or(Some(0.0), |span| span.end.is_finite().then_some(span.end)),
+        }
     }
 
     /// Time from which on the acceleration is zero `[s]`: the end of the motion, but for a record the first of the zeros at its end. It is `None`
@@ -278,8 +283,8 @@ impl Motion {
     }
 
     /// Names and values of the parameters that are not finite, exceed `largest` in magnitude, or are not above their lower bounds; empty if all are valid.
-    /// Parameters are in SI units. The peak of a record has the name `file`; the largest acceleration `velocity · omega` of a pulse of velocity has the
-    /// name `velocity`. In a sum the name is `term[k].name`, with `k` from 1.
+    /// Parameters are in SI units. The peak of a record has the name `file`; the largest acceleration of a pulse of velocity, `velocity · omega`, or over
+    /// `gamma` where that is below one, to within a factor of two, has the name `velocity`. In a sum the name is `term[k].name`, with `k` from 1.
     pub fn invalid(&self, largest: f64) -> Vec<(String, f64)> {
         if let Motion::Sum { terms } = self {
             let of_term = |(index, term): (usize, &Motion)| {
@@ -300,9 +305,9 @@ impl Motion {
         let wave = |amplitude: f64, omega: f64, start: f64, others: &[Parameter]| {
             with(&[("amplitude", amplitude, ANY), ("omega", omega, SLOWEST), ("start", start, ANY)], others)
         };
-        // The acceleration of a pulse of velocity has its amplitude at the crest.
-        let envelope = |velocity: f64, omega: f64, start: f64, others: &[Parameter]| {
-            let crest = ("velocity", velocity * omega, ANY);
+        // At the crest, `omega` is the rate of the carrier, and `omega / gamma` that of the envelope.
+        let envelope = |velocity: f64, omega: f64, start: f64, gamma: f64, others: &[Parameter]| {
+            let crest = ("velocity", velocity * omega * (1.0 / gamma).max(1.0), ANY);
             with(&[("velocity", velocity, ANY), ("omega", omega, SLOWEST), ("start", start, ANY), crest], others)
         };
         match *self {
@@ -321,10 +326,10 @@ impl Motion {
                 wave(amplitude, omega, start, &[("phase", phase, ANY), ("duration", duration, 0.0)])
             }
             Motion::MavroeidisPapageorgiou { velocity, omega, start, phase, gamma } => {
-                envelope(velocity, omega, start, &[("phase", phase, ANY), ("gamma", gamma, 1.0)])
+                envelope(velocity, omega, start, gamma, &[("phase", phase, ANY), ("gamma", gamma, 1.0)])
             }
             Motion::Gabor { velocity, omega, start, phase, gamma } => {
-                envelope(velocity, omega, start, &[("phase", phase, ANY), ("gamma", gamma, 0.0)])
+                envelope(velocity, omega, start, gamma, &[("phase", phase, ANY), ("gamma", gamma, 0.0)])
             }
             Motion::Rectangular { amplitude, start, duration }
             | Motion::DoubleRectangular { amplitude, start, duration } => {
@@ -432,6 +437,24 @@ pub(crate) mod tests {
         };
         assert_eq!(invalid(0.9), [("gamma".into(), 0.9)]);
         assert_eq!(invalid(1.1), []);
+    }
+
+    /// A narrow envelope accelerates as much as it is narrow; of a width that is none, nothing moves and nothing hangs.
+    #[test]
+    fn a_gabor_wavelet_is_bounded_by_its_width() {
+        let gabor = |gamma: f64| Motion::Gabor { velocity: 1.0, omega: 6.0, start: 0.0, phase: 0.0, gamma };
+        for (gamma, name) in [(1e-7, "velocity"), (1e-308, "velocity"), (0.0, "gamma"), (f64::NEG_INFINITY, "gamma")] {
+            assert!(gabor(gamma).invalid(1e6).iter().any(|(own, _)| own == name), "{gamma}");
+        }
+        for gamma in [0.3, 1.0, 4.0] {
+            assert_eq!(gabor(gamma).invalid(1e6), []);
+            let crest = 6.0 * (1.0f64 / gamma).max(1.0);
+            let pga = gabor(gamma).peaks(0.0, 100.0)[0];
+            assert!(pga < 2.0 * crest && pga > 0.5 * crest, "{gamma}: {pga}, not {crest}");
+        }
+        for gamma in [f64::NEG_INFINITY, -1.0, 0.0] {
+            assert_eq!((gabor(gamma).travel(2.0), gabor(gamma).peaks(0.0, 2.0)), ([0.0; 2], [0.0; 3]));
+        }
     }
 
     #[test]

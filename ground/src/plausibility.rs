@@ -47,11 +47,11 @@ pub(crate) fn doubtful_samples(accel: &[f64], unit: AccelerationUnit, gravity: f
     warnings
 }
 
-/// Warning that a factor other than one makes a peak `[m/s²]` that no ground has had, and the record's own is none.
+/// Warning that a factor other than one makes a peak `[m/s²]` that no ground has had, where the record's own peak is none of these.
 pub(crate) fn scaled_too_far(peak: f64, scale: f64) -> Option<String> {
     let (peak, own) = (peak / DEFAULT_GRAVITY, (peak / scale).abs() / DEFAULT_GRAVITY);
     (peak > LARGEST_PEAK_IN_G && own <= LARGEST_PEAK_IN_G).then(|| {
-        format!("scaled by {scale} it has a peak of {peak:.1} g, which is hardly one; is the size to which it is scaled in another unit?")
+        format!("it is scaled to a peak above {LARGEST_PEAK_IN_G} g, which is hardly one; is the size to which it is scaled, or the factor, in another unit?")
     })
 }
 

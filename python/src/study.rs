@@ -122,7 +122,7 @@ impl Ida {
         self.ida.records().iter().map(|record| StudyRecord { record: record.clone() }).collect()
     }
 
-    /// Warnings about the records.
+    /// Warnings about the scene and the records.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.ida.warnings()

@@ -57,7 +57,7 @@ impl Sweep {
         self.sweep.len()
     }
 
-    /// Warnings about the ground motions of all points, or of this number of evenly spread ones.
+    /// Warnings about axes, and about the scenes of all points or of this number of evenly spread ones.
     fn warnings(&self, py: Python<'_>, most: usize) -> Vec<String> {
         py.detach(|| self.sweep.warnings(0..self.sweep.len(), most))
     }

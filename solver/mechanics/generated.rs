@@ -62,7 +62,8 @@ pub use equations::{EQUATIONS, MAX_BLOCKS};
 pub struct Equations {
     /// Name for people; equal names mean equal equations.
     pub name: &'static str,
-    /// The mode of a pattern of a column, `None` where there are no equations for it.
+    /// The mode of a pattern of a column, `None` where there are no equations for it. A mode of another pattern or gravity is not taken; one made for
+    /// horizontal motion only must not be given where [`GroundMotion::WithVertical`] is asked for.
     pub mode: fn(&Column, &Pattern, GroundMotion) -> Option<Mode>,
 }
 
@@ -85,9 +86,10 @@ impl PartialEq for Equations {
     }
 }
 
-/// The pattern's bits: bit `i` is set where interface `i + 1` is open.
-pub(crate) fn mask(pattern: &Pattern) -> usize {
-    pattern.0.iter().rev().fold(0, |mask, interface| 2 * mask + usize::from(interface.is_open()))
+/// The pattern's bits: bit `i` is set where interface `i + 1` is open. `None` for more interfaces than any build has equations of.
+pub(crate) fn mask(pattern: &Pattern) -> Option<usize> {
+    let bits = || pattern.0.iter().rev().fold(0, |mask, interface| 2 * mask + usize::from(interface.is_open()));
+    (pattern.0.len() <= rocking_codegen::LARGEST).then(bits)
 }
 
 /// The mode of a pattern on a step program and the scene constants of its linkage; `None` if there are no equations for it, `P` has another number of
@@ -176,7 +178,7 @@ impl<P: Program> GeneratedMode<P> {
                 pivot: offset(interface),
             };
         let (equations, geometry, interfaces): (_, _, Vec<_>) = if column.is_plain() {
-            let equations = (linkages.rectangles)(column.len(), mask(pattern))?;
+            let equations = (linkages.rectangles)(column.len(), mask(pattern)?)?;
             let geometry = geometry(column, pattern);
             let interfaces = equations.interfaces.iter().enumerate();
             let interfaces = interfaces.map(|(index, interface)| forces(interface, &geometry, index)).collect();

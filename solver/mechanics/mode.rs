@@ -396,6 +396,18 @@ mod tests {
         assert_eq!(run(&segments, &usual), Err(IntegrateError::Gap { time: 0.2 }));
     }
 
+    /// More blocks than a number has bits for their interfaces.
+    #[test]
+    fn columns_of_any_number_of_blocks_have_modes() {
+        for blocks in [12, 13, 64, 65, 100] {
+            let column = Column::equal_blocks(blocks, 0.4, 0.2 * blocks as f64, 1.0, 9.81).expect("valid");
+            let signs: Vec<i8> = (0..blocks).map(|interface| i8::from(interface + 1 == blocks)).collect();
+            let pattern = Pattern::from_signs(&signs);
+            assert_eq!(crate::mechanics::generated::mask(&pattern), (blocks == 12).then_some(1 << 11), "{blocks}");
+            assert_eq!(Mode::new(&column, &pattern).expect("it moves").pattern(), &pattern);
+        }
+    }
+
     /// On the Moon, all methods and both kinds of equations have one answer.
     #[test]
     fn a_mode_has_the_gravity_of_its_column() {

@@ -89,7 +89,8 @@ impl Sample {
     }
 
     fn assert_of(&self, column: &Column) {
-        assert_eq!(self.theta.len(), column.len(), "a sample of a run of another column: numbers of blocks differ");
+        let lengths = [self.theta.len(), self.omega.len(), self.pattern.0.len()];
+        assert_eq!(lengths, [column.len(); 3], "a sample of a run of another column: numbers of blocks differ");
     }
 
     /// `[θ, θ̇]` of the free angles: those of the lowest block of each link that moves.

@@ -1,9 +1,11 @@
 //! What a scene may hold but hardly means: numbers that are likely in another unit, or missing. A warning each.
+//!
+//! Warnings hold no numbers of their scene: thousands of scenes of a sweep have each of them once.
 
 use super::Scene;
 use crate::column::{Block, Shape};
 use rocking_ground::Motion;
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
 /// Height above which a column has most likely been given in cm or mm `[m]`. The tallest columns of stone have some thirty.
@@ -22,24 +24,26 @@ const ANGLES_OF_FRICTION: RangeInclusive<f64> = 15.0..=60.0;
 /// Doubts about the numbers of a scene, but for its records, a sentence each.
 pub(super) fn doubts(scene: &Scene) -> Vec<String> {
     let mut doubts = Vec::new();
-    let height = scene.column.stack(0).height;
-    if height > TALL {
-        doubts.push(format!("the column is {height} m high, and no column is; sizes are in m"));
+    if scene.column.stack(0).height > TALL {
+        doubts.push(format!("the column is higher than {TALL} m, which no column is; sizes are in m"));
     }
     doubts.extend(densities(scene));
-    let coefficients = scene.friction.iter().flat_map(|friction| friction.fixed.iter().chain(&friction.kinetic));
-    if let Some(angle) = coefficients.copied().find(|coefficient| ANGLES_OF_FRICTION.contains(coefficient)) {
+    let mut coefficients = scene.friction.iter().flat_map(|friction| friction.fixed.iter().chain(&friction.kinetic));
+    if coefficients.any(|coefficient| ANGLES_OF_FRICTION.contains(coefficient)) {
         doubts.push(format!(
-            "no material has a coefficient of friction of {angle}; if that is an angle in degrees, give its tangent, {:.4}",
-            libm::tan(angle * PI / 180.0)
+            "a coefficient of friction is above {}, which no material has; if it is an angle in degrees, give its tangent (0.70 for 35°)",
+            ANGLES_OF_FRICTION.start()
         ));
     }
-    let motions = [&scene.excitation.horizontal, &scene.excitation.vertical];
-    doubts.extend(motions.into_iter().flatten().filter_map(phase));
+    let mut motions = [&scene.excitation.horizontal, &scene.excitation.vertical].into_iter().flatten();
+    if motions.any(is_turned_by_more_than_a_turn) {
+        doubts
+            .push("a phase of the ground motion is more than a turn, 2π rad; if it is in degrees, give radians".into());
+    }
     doubts
 }
 
-/// Doubts about the masses of the blocks.
+/// A doubt about the masses of the blocks.
 fn densities(scene: &Scene) -> Option<String> {
     let shape = |block: usize| scene.looks.get(block).map_or(Shape::Prism, |look| look.shape);
     let density = |(index, block): (usize, &Block)| {
@@ -51,38 +55,26 @@ fn densities(scene: &Scene) -> Option<String> {
     let (lightest, densest) = (densities().min_by(by_density)?, densities().max_by(by_density)?);
     if densest.1 > LARGEST_RATIO_OF_DENSITIES * lightest.1 {
         return Some(format!(
-            "block {} has a density of {}, block {} of {} (kg/m³ for a drum, otherwise kg per m² of the side view): is a density or mass missing, or in another unit?",
-            lightest.0 + 1,
-            rounded(lightest.1),
+            "block {} is more than {LARGEST_RATIO_OF_DENSITIES} times denser than block {}: is a density or mass missing, or in another unit?",
             densest.0 + 1,
-            rounded(densest.1)
+            lightest.0 + 1
         ));
     }
     let drums = densities().filter(|(block, _)| shape(*block) == Shape::Drum).map(|(_, density)| density);
-    let densest = drums.reduce(f64::max).filter(|density| T_PER_M3.contains(density))?;
-    let densest = rounded(densest);
-    Some(format!("drums of {densest} kg/m³; stone has 1500 to 3000 kg/m³, which are 1.5 to 3 t/m³"))
+    drums
+        .reduce(f64::max)
+        .filter(|density| T_PER_M3.contains(density))
+        .map(|_| "drums have a density of a few kg/m³; stone has 1500 to 3000 kg/m³, which are 1.5 to 3 t/m³".into())
 }
 
-/// A number with four significant digits.
-fn rounded(number: f64) -> f64 {
-    format!("{number:.3e}").parse().unwrap_or(number)
-}
-
-/// Doubts about the phase of a motion.
-fn phase(motion: &Motion) -> Option<String> {
+fn is_turned_by_more_than_a_turn(motion: &Motion) -> bool {
     match motion {
         Motion::Harmonic { phase, .. }
         | Motion::SineBurst { phase, .. }
         | Motion::MavroeidisPapageorgiou { phase, .. }
-        | Motion::Gabor { phase, .. }
-            if phase.abs() > TAU =>
-        {
-            let radians = phase * FRAC_PI_2 / 90.0;
-            Some(format!("phase = {phase} rad is more than a turn; if it is in degrees, give {radians:.4}"))
-        }
-        Motion::Sum { terms } => terms.iter().find_map(self::phase),
-        _ => None,
+        | Motion::Gabor { phase, .. } => phase.abs() > TAU,
+        Motion::Sum { terms } => terms.iter().any(is_turned_by_more_than_a_turn),
+        _ => false,
     }
 }
 
@@ -91,37 +83,34 @@ mod tests {
     use super::*;
     use crate::{Column, Friction};
 
-    fn scene(blocks: Vec<Block>) -> Scene {
+    fn of(blocks: Vec<Block>) -> Scene {
         Scene::new(Column::new(blocks, 9.81).expect("valid blocks"))
     }
 
     /// What a scene of two blocks of 2 m gives no doubt of, and what gives one.
     #[test]
     fn numbers_in_other_units_give_doubts() {
-        let plain = || scene(vec![Block::rectangle(0.4, 1.0, 2600.0), Block::rectangle(0.4, 1.0, 2400.0)]);
+        let plain = || of(vec![Block::rectangle(0.4, 1.0, 2600.0), Block::rectangle(0.4, 1.0, 2400.0)]);
         assert_eq!(doubts(&plain()), Vec::<String>::new());
-        let of = |change: &dyn Fn(&mut Scene)| {
+        let said = |change: &dyn Fn(&mut Scene)| {
             let mut changed = plain();
             change(&mut changed);
             doubts(&changed).join(" ")
         };
-        let said = of(&|scene| scene.friction = Some(Friction::uniform(35.0)));
-        assert!(said.contains("coefficient of friction of 35;") && said.ends_with("0.7002"), "{said}");
-        assert!(of(&|scene| scene.friction = Some(Friction::uniform(10.0))).is_empty());
+        let friction = |coefficient: f64| said(&|scene| scene.friction = Some(Friction::uniform(coefficient)));
+        assert!(friction(35.0).contains("a coefficient of friction is above 15"), "{}", friction(35.0));
+        assert!(friction(10.0).is_empty());
         let harmonic = |phase: f64| Motion::Harmonic { amplitude: 1.0, omega: 5.0, start: 0.0, phase };
-        let said =
-            of(&|scene| scene.excitation.horizontal = Some(Motion::Sum { terms: vec![harmonic(0.1), harmonic(90.0)] }));
-        assert!(said.contains("phase = 90 rad") && said.ends_with("give 1.5708"), "{said}");
-        assert!(of(&|scene| scene.excitation.vertical = Some(harmonic(-TAU))).is_empty());
-        assert!(
-            of(&|scene| *scene = super::tests::scene(vec![Block::rectangle(20.0, 31.0, 1.0)])).contains("62 m high")
-        );
+        let sum = Motion::Sum { terms: vec![harmonic(0.1), harmonic(90.0)] };
+        assert!(said(&|scene| scene.excitation.horizontal = Some(sum.clone())).contains("more than a turn"));
+        assert!(said(&|scene| scene.excitation.vertical = Some(harmonic(-TAU))).is_empty());
+        assert!(said(&|scene| *scene = of(vec![Block::rectangle(20.0, 31.0, 1.0)])).contains("higher than 60 m"));
     }
 
     #[test]
     fn a_block_without_density_among_others_gives_a_doubt() {
-        let said = doubts(&scene(vec![Block::rectangle(0.4, 1.0, 2600.0), Block::rectangle(0.4, 1.0, 1.0)]));
-        assert!(said[0].starts_with("block 2 has a density of 1, block 1 of 2600 "), "{said:?}");
-        assert!(doubts(&scene(vec![Block::rectangle(0.4, 1.0, 1.0); 3])).is_empty());
+        let said = doubts(&of(vec![Block::rectangle(0.4, 1.0, 2600.0), Block::rectangle(0.4, 1.0, 1.0)]));
+        assert!(said[0].starts_with("block 1 is more than 100 times denser than block 2"), "{said:?}");
+        assert!(doubts(&of(vec![Block::rectangle(0.4, 1.0, 1.0); 3])).is_empty());
     }
 }

@@ -92,7 +92,7 @@ pub struct Fragility {
     pub records: usize,
     /// Runs by level, from the lowest up.
     pub counts: Vec<Count>,
-    /// Number of runs that count as having reached the state because the column was lost, and whose peak or slide was not above the limit then: another
+    /// Number of runs that count as having reached the state because the column was lost, without a peak or slide above the limit up to then: mostly another
     /// block has fallen. Zero for `uplift` and `overturned`.
     pub by_loss: usize,
     /// The curve of the decided runs.
@@ -142,7 +142,7 @@ impl Fragility {
     /// ```
     ///
     /// # Panics
-    /// If `options.confidence` is not between 0 and 1, or the level of a run is not a finite number above zero.
+    /// For options that [`FragilityOptions::check`] refuses, and if the level of a run is not a finite number above zero.
     pub fn of(runs: &[Observation], state: LimitState, options: &FragilityOptions) -> Fragility {
         let found = Fragility::of_observed(runs, state, options, || ControlFlow::Continue(()));
         found.expect("nothing ends the resampling")
@@ -151,15 +151,14 @@ impl Fragility {
     /// As [`Fragility::of`]; `progress` is called before each replicate, on all threads. `None` once it breaks.
     ///
     /// # Panics
-    /// If `options.confidence` is not between 0 and 1, or the level of a run is not a finite number above zero.
+    /// For options that [`FragilityOptions::check`] refuses, and if the level of a run is not a finite number above zero.
     pub fn of_observed(
         runs: &[Observation],
         state: LimitState,
         options: &FragilityOptions,
         progress: impl Fn() -> ControlFlow<()> + Sync,
     ) -> Option<Fragility> {
-        let is_share = options.confidence > 0.0 && options.confidence < 1.0;
-        assert!(is_share, "a confidence of {} is not between 0 and 1", options.confidence);
+        options.check().unwrap_or_else(|wrong| panic!("{wrong}"));
         let wrong = runs.iter().find(|run| !(run.level.is_finite() && run.level > 0.0));
         assert!(wrong.is_none(), "a level that is not above zero: {wrong:?}");
         let table = Table::of(runs, state);
@@ -182,7 +181,7 @@ impl Fragility {
             state,
             layout,
             records: table.records.len(),
-            by_loss: runs.iter().filter(|run| state.concerns(run) && state.is_by_loss(run)).count(),
+            by_loss: table.by_loss,
             fit,
             bounds,
             goodness: curve.map(|curve| Goodness::of(&counts, &curve, layout)),
@@ -335,7 +334,7 @@ mod tests {
         for state in ["slide > 0.05", "peak_2 > 0.3"] {
             let runs = all(|_, level| level > 0.5, 3);
             let unobserved = Fragility::of(&runs, state.parse().expect("a state"), &FragilityOptions::default());
-            assert_eq!(unobserved.fit, Fit::NoRuns, "{state}");
+            assert_eq!((unobserved.fit, unobserved.by_loss), (Fit::NoRuns, 0), "{state}");
         }
         // One of six records overturns at 0.8 and two at 1.6: the curve reaches one half beyond these levels.
         let rare = overturning(&all(|record, level| level > 0.8 && record < 2 || level > 0.5 && record == 0, 6));
@@ -403,14 +402,13 @@ mod tests {
 
     /// The first of two blocks never moves, and the second falls: the state of the first counts these falls, and says so.
     #[test]
-    fn falls_of_other_blocks_are_told() {
+    fn runs_with_a_state_by_the_loss_of_the_column_are_told() {
         let runs: Vec<Observation> = (0..4)
             .flat_map(|record| [0.5, 1.0].map(|level| run(record, level, level > 0.7 || record == 0)))
             .map(|run| Observation { peaks: vec![0.0, if run.is_lost() { 9.0 } else { 0.2 }], ..run })
             .collect();
         let of = |state: &str| Fragility::of(&runs, state.parse().expect("a state"), &FragilityOptions::default());
-        let told =
-            "5 of 5 run(s) with the state have it because the column was lost, without a peak or slide above the limit";
+        let told = "5 of 5 run(s) with the state have it because the column was lost, without a peak or slide above the limit up to then";
         assert_eq!(of("peak_1 > 0.5").by_loss, 5);
         assert!(
             of("peak_1 > 0.5").statements().iter().any(|statement| statement == told),

@@ -191,19 +191,24 @@ impl Ida {
     pub fn warnings(&self) -> Vec<String> {
         let mut seen = HashSet::new();
         let without_motion = Scene { excitation: Excitation::default(), ..self.scene.clone() };
-        let has_vertical = self.records.iter().any(|record| record.vertical.is_some());
-        let left_out = self.scene.excitation.vertical.is_some() && !has_vertical;
-        let of_scene = left_out.then(|| {
-            "the vertical ground motion of the scene is left out: runs have the motion of their records alone, vertical components with `vertical = true` in [records]"
+        let of_scene = self.scene.excitation.vertical.is_some().then(|| {
+            "the vertical ground motion of the scene is left out: runs have the motion of their records alone"
                 .to_string()
         });
         let of_scene = of_scene.into_iter().chain(without_motion.warnings());
-        let of = |record: &StudyRecord| {
+        // Scaled to the highest level; where that leaves the range of numbers, as they are.
+        let highest = self.levels.iter().copied().fold(0.0, f64::max) * self.unit;
+        let of = |(record, size): (&StudyRecord, &f64)| {
+            let factor = self.intensity.measure.factor(*size, highest);
+            let scaled = |own: &Record| Motion::Record(own.clone().scaled(factor).unwrap_or_else(|_| own.clone()));
             let [horizontal, vertical] =
-                [Some(&record.horizontal), record.vertical.as_ref()].map(|own| own.cloned().map(Motion::Record));
+                [Some(&record.horizontal), record.vertical.as_ref()].map(|own| own.map(scaled));
             Excitation { horizontal, vertical }.warnings_named(&record.name)
         };
-        of_scene.chain(self.records.iter().flat_map(of)).filter(|warning| seen.insert(warning.clone())).collect()
+        of_scene
+            .chain(self.records.iter().zip(&self.sizes).flat_map(of))
+            .filter(|warning| seen.insert(warning.clone()))
+            .collect()
     }
 
     /// Its measure.

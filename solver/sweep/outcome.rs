@@ -67,7 +67,7 @@ impl Outcome {
     /// What the response of a point says of what is asked. [`Outcome::trust`] is left out: it comes from companions, which are runs of their own.
     pub(super) fn of(ask: Ask, scene: &Scene, response: &Response) -> Outcome {
         let with_peaks = ask.is_of_peaks();
-        // A column that no event stops stays in the mode in which it begins.
+        // A column that no event stops stays in the mode in which it begins. Blocks that fly from the start may have several; the longest stands for these.
         let last_mode = || match response.events.last() {
             Some(event) => event.mode.to_string(),
             None => response.modes_by_time().first().map_or(ModeName::Rest, |(mode, _)| *mode).to_string(),

@@ -66,15 +66,12 @@ impl Trust {
             false => {
                 let (known, spacing) = (self.known_until(), self.spacing(self.known_until()));
                 let earlier = self.slide_horizon.filter(|slides| *slides < known);
-                let slides = |before: &str, after: &str| {
-                    earlier.map_or(String::new(), |slides| format!(", slides {before} t = {slides:.4} s{after}"))
-                };
+                let slides = earlier.map_or(String::new(), |t| format!("; slides are known up to t = {t:.4} s only"));
                 match self.is_open_by_inputs() {
                     true => format!(
-                        "a change of the inputs by a millionth alters the motion from t = {known:.4} s on{}{spacing}",
-                        slides("from", " on")
+                        "a change of the inputs by a millionth alters the motion from t = {known:.4} s on{spacing}{slides}"
                     ),
-                    false => format!("angles are known up to t = {known:.4} s only{}{spacing}", slides("up to", "")),
+                    false => format!("angles are known up to t = {known:.4} s only{spacing}{slides}"),
                 }
             }
         };
@@ -161,9 +158,11 @@ mod tests {
         };
         assert!(
             sentence(9.0, Some(2.0))
-                .starts_with("angles are known up to t = 6.0000 s only, slides up to t = 2.0000 s;")
+                .starts_with("angles are known up to t = 6.0000 s only; slides are known up to t = 2.0000 s only;")
         );
-        assert!(sentence(4.0, Some(2.0)).contains("motion from t = 5.0000 s on, slides from t = 2.0000 s on;"));
+        assert!(
+            sentence(4.0, Some(2.0)).contains("motion from t = 5.0000 s on; slides are known up to t = 2.0000 s only;")
+        );
         assert!([None, Some(6.0)].iter().all(|slides| !sentence(9.0, *slides).contains("slides")));
     }
 }

@@ -75,8 +75,8 @@ pub fn list_modes(blocks: usize) -> String {
     if blocks > largest {
         let _ = writeln!(
             text,
-            "This build has generated equations for columns of up to {largest} blocks; hand-written ones serve larger columns; where blocks are tapered or\n\
-             displaced, only in modes of more than {largest} free angles. ROCKING_MAX_BLOCKS={blocks} builds those of {blocks} blocks."
+            "This build has generated equations for columns of up to {largest} blocks. Larger columns run on hand-written ones; of tapered or displaced blocks, only\n\
+             the modes with more than {largest} free angles do. ROCKING_MAX_BLOCKS={blocks} builds equations for {blocks} blocks."
         );
     }
     text

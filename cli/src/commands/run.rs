@@ -217,10 +217,12 @@ fn account(scene: &Scene, response: &Response, followed: &Followed) -> String {
         let slides = list("interface", &report.residual_slide, |_, slide| fixed(100.0 * slide, 3));
         let flights: usize = report.flights.iter().sum();
         // Blocks that fall slide and fly on: where they are at the end of the run is not where they stay.
-        let when =
-            if response.lost_block().is_some() { "slides when the run ends, in the fall" } else { "slides at the end" };
+        let when = match response.lost_block() {
+            Some(_) => "slides when the run ends, in the fall",
+            None => "slides at the end",
+        };
         let known = followed.trust().and_then(|trust| trust.slide_horizon);
-        let known = known.map_or(String::new(), |t| format!(" of this run (known up to t = {t:.4} s only)"));
+        let known = known.map_or(String::new(), |t| format!(" (of this run alone: known up to t = {t:.4} s)"));
         let _ = writeln!(text, "{when}{known}{slides} cm; {flights} flight(s)");
     } else if response.sliding.is_some() && response.status != StopReason::Undetermined {
         let _ = writeln!(text, "friction holds: no block slides or flies");

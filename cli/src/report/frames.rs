@@ -399,7 +399,7 @@ pub fn notes(results: &Results) -> String {
     }
     let stride = stride(results);
     if stride > 1 {
-        notes.push(format!("The run is long: one row in {stride} of response.csv is kept here, and every event."));
+        notes.push(format!("The picture is drawn from one row in {stride} of response.csv, and from the events."));
     }
     if results.response.events.len() > MOST_EVENTS {
         notes.push("The run has very many events: those within a millisecond are drawn as one. The line below the picture names each.".into());

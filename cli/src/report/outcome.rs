@@ -227,9 +227,13 @@ pub fn tiles(results: &Results) -> String {
     let response = &results.response;
     let mut tiles = Vec::new();
     let largest = response.peak_theta.iter().copied().fold(0.0, f64::max);
-    let share = match response.peaks(&results.column).into_iter().fold(0.0, f64::max) {
-        f64::INFINITY => "a stack does not stand by itself".into(),
-        share => format!("|θ|/α up to {}", percent(share)),
+    let (shares, leaning): (Vec<f64>, Vec<f64>) =
+        response.peaks(&results.column).into_iter().partition(|share| share.is_finite());
+    let largest_share = shares.iter().copied().reduce(f64::max).map(|share| format!("|θ|/α up to {}", percent(share)));
+    let share = match (largest_share, leaning.is_empty()) {
+        (Some(share), true) => share,
+        (Some(share), false) => format!("{share} of stacks that stand by themselves"),
+        (None, _) => "no stack stands by itself".into(),
     };
     tiles.push(("largest angle", degrees(largest), format!("{} rad; {share}", significant(largest, 4))));
     tiles.push(("impacts", response.impacts.to_string(), other_events(&response.events)));

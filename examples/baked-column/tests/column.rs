@@ -2,6 +2,7 @@
 
 use baked_column::{DENSITY, GRAVITY, column, run, scene, six_blocks};
 use rocking::dynamics::Ground;
+use rocking::generated::Equations;
 use rocking::pattern::{Interface, Pattern};
 use rocking::{Column, DynamicsSource, Friction, GroundMotion, Mode, Motion, Scene};
 
@@ -68,6 +69,20 @@ fn another_column_falls_back_and_says_so() {
             assert!(response.used_generic);
         }
     }
+}
+
+/// On the Moon the same column rocks more slowly: its equations are not those of the scene.
+#[test]
+fn equations_of_another_gravity_are_not_taken() {
+    let scene = scene().expect("positive sizes");
+    let on_the_moon = |column: &Column, pattern: &Pattern, _: GroundMotion| {
+        let moon = Column::new(column.blocks().to_vec(), 1.62).expect("positive sizes");
+        Mode::generic(&moon, pattern)
+    };
+    let supplied = DynamicsSource::Supplied(Equations { name: "moon", mode: on_the_moon });
+    let [fallen_back, own] = [supplied, DynamicsSource::Generated].map(|source| run(&scene, source).expect("solved"));
+    assert!(fallen_back.used_generic && !own.used_generic);
+    assert_eq!((fallen_back.impacts, fallen_back.peak_theta), (own.impacts, own.peak_theta));
 }
 
 /// Blocks that have slid are another column, on the library's own equations: that is no mistake of the program.

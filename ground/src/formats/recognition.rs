@@ -4,6 +4,7 @@ use super::header::Entry;
 use super::numbers::number;
 use super::record_file::{Format, RecordFile};
 use super::{cosmos, csmip, dyna, knet, peer, table};
+use crate::bounds::{LONGEST_INTERVAL, SHORTEST_INTERVAL};
 use crate::error::RecordError;
 use crate::options::TextOptions;
 use crate::record::{Record, check_range};
@@ -23,9 +24,12 @@ impl RecordFile {
     /// # Ok::<(), rocking_ground::RecordError>(())
     /// ```
     pub fn read(bytes: &[u8], options: &TextOptions) -> Result<RecordFile, RecordError> {
-        let &TextOptions { gravity, .. } = options;
+        let &TextOptions { gravity, dt, .. } = options;
         if !(gravity.is_finite() && gravity > 0.0) {
             return Err(RecordError::Gravity { gravity });
+        }
+        if let Some(dt) = dt.filter(|dt| !(SHORTEST_INTERVAL..=LONGEST_INTERVAL).contains(dt)) {
+            return Err(RecordError::Interval { dt });
         }
         let text = decode(bytes)?;
         // Old files end with Ctrl-Z, files that are cut off may end with zeros.
@@ -160,6 +164,17 @@ fn lines(text: &str) -> Vec<&str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_interval_that_is_none_is_refused() {
+        for dt in [-1.0, 0.0, f64::NAN, f64::INFINITY] {
+            let options = TextOptions { dt: Some(dt), ..TextOptions::default() };
+            for text in [&b"0 1\n0.01 2\n0.02 3\n"[..], b"1\n2\n3\n"] {
+                let read = RecordFile::read(text, &options);
+                assert!(matches!(read, Err(RecordError::Interval { .. })), "{dt}: {read:?}");
+            }
+        }
+    }
 
     #[test]
     fn text_is_read_whatever_its_bytes() {

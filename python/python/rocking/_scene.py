@@ -468,7 +468,7 @@ class Scene:
 
     @property
     def warnings(self) -> list[str]:
-        """Warnings about its records, a sentence each."""
+        """Warnings about its records, and about numbers that are likely missing or in another unit, a sentence each."""
         return self._compiled.warnings
 
     def save(self, file: str | os.PathLike[str]) -> None:

@@ -108,7 +108,7 @@ class Ida:
 
     @property
     def warnings(self) -> list[str]:
-        """Warnings about the records, a sentence each, each once; the first ones are also a ``UserWarning`` when the analysis is made."""
+        """Warnings about the scene and the records, a sentence each, each once; the first ones are also a ``UserWarning`` when the analysis is made."""
         return self._ida.warnings
 
     @property
@@ -545,7 +545,7 @@ class Fragility:
         Where the state is not monotonic in the level: pairs of levels between which the share of runs falls, and records that reach the state and do not at
         a higher level. No record is named where runs of a record differ in something beside their level; ``statements`` say so.
     by_loss : int
-        Number of runs that have reached the state because the column was lost, with a peak or slide that was not above the limit then: another block fell.
+        Number of runs that have reached the state because the column was lost, without a peak or slide above the limit up to then: mostly another block fell.
     statements : list of str
         Results and warnings, a sentence each.
     """

@@ -18,7 +18,7 @@ from ._scene import POINT, Scene
 if TYPE_CHECKING:
     import pyarrow
 
-# Points whose scenes are read for warnings about their records.
+# Points whose scenes are read for warnings.
 POINTS_READ = 1000
 
 
@@ -101,7 +101,7 @@ class Sweep:
 
     @property
     def warnings(self) -> list[str]:
-        """Warnings about the records of the points, or of a thousand points that are evenly spread, a sentence each, each once."""
+        """Warnings about axes and about the scenes of the points, or of a thousand points that are evenly spread, a sentence each, each once."""
         return self._sweep.warnings(POINTS_READ)
 
     def __len__(self) -> int:

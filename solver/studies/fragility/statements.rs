@@ -23,18 +23,18 @@ impl Fragility {
             self.goodness_in_words(),
             self.not_monotonic(),
             self.unnamed(),
-            self.lost_otherwise(),
+            self.by_loss_alone(),
             self.left_out(),
         ];
         sentences.into_iter().flatten().collect()
     }
 
-    /// Warning that the state counts falls of other blocks; `None` if it does not.
-    fn lost_otherwise(&self) -> Option<String> {
+    /// Warning that some runs have the state by the loss of the column alone; `None` if none has.
+    fn by_loss_alone(&self) -> Option<String> {
         let reached: usize = self.counts.iter().map(|count| count.reached).sum();
-        (self.by_loss > 0 && reached > 0).then(|| {
+        (self.by_loss > 0).then(|| {
             format!(
-                "{} of {reached} run(s) with the state have it because the column was lost, without a peak or slide above the limit",
+                "{} of {reached} run(s) with the state have it because the column was lost, without a peak or slide above the limit up to then",
                 self.by_loss
             )
         })

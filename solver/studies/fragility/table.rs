@@ -66,6 +66,8 @@ pub struct Table {
     levels: Vec<f64>,
     /// Record, level and whether the state was reached.
     pub runs: Vec<(usize, usize, Option<bool>)>,
+    /// Number of the runs that reached the state by the loss of the column alone.
+    pub by_loss: usize,
 }
 
 impl Table {
@@ -82,8 +84,9 @@ impl Table {
             let level = place_of_level(&levels, run.level);
             (record, level, state.is_reached(run).filter(|_| is_observed))
         };
+        let by_loss = runs.iter().filter(|run| is_observed && state.is_by_loss(run)).count();
         let runs = runs.into_iter().map(place).collect();
-        Table { records, levels, runs }
+        Table { records, levels, runs, by_loss }
     }
 
     pub fn counts(&self) -> Vec<Count> {

@@ -289,13 +289,13 @@ impl Findings {
         text
     }
 
-    /// Notes blocks that begin past their balance; of blocks that are placed one by one the stacks say nothing.
+    /// Notes blocks that begin past their balance, where stacks have one balance to both sides: they are neither displaced nor placed block by block.
     fn past_balance(&self, text: &mut String) {
-        if !self.initial.x.is_empty() {
+        if !self.initial.x.is_empty() || self.slides.iter().any(|slide| *slide != 0.0) {
             return;
         }
         let angles = self.initial.theta.iter().zip(&self.stacks);
-        let past = angles.filter(|(theta, stack)| stack.slenderness > 0.0 && theta.abs() > stack.slenderness);
+        let past = angles.filter(|(theta, stack)| theta.abs() > stack.slenderness);
         for (theta, stack) in past {
             let _ = writeln!(
                 text,

@@ -17,7 +17,7 @@ struct Findings {
     records: Vec<StudiedRecord>,
     runs: usize,
     states: Vec<String>,
-    /// Warnings about the records, each once, and about runs that would be rows with errors.
+    /// Warnings about the scene and the records, each once, and about runs that would be rows with errors.
     warnings: Vec<String>,
 }
 

@@ -1,7 +1,7 @@
 // Plays a run: the column on a canvas, its curves on another, and the controls.
 //
-// What `#run` holds (lengths N per block or interface, base first; F frames in order of time, an event twice: before, after; of very many events, those of
-// a millisecond twice together):
+// What `#run` holds (lengths N per block or interface, base first; F frames in order of time, two of each event, before and after; where
+// there are more than 2000 events, those within a millisecond have two in common, before the first and after the last):
 //   blocks [[half-widths of base and top, half-height]] m; round [whether a drum]; contact [[half-length, centre on the lower face, on the upper face]] m; gravity m/s²; fills per link
 //   angles rad, the largest that the curves show, null for all
 //   patterns [{signs, text, mode, mirrored, link}]; rest, the name of the mode without open interfaces; events [{t, kind, at: interfaces from 0, mode and mirrored after}]
@@ -41,7 +41,8 @@ function lastNotAbove(list, value, time = entry => entry) {
   return low;
 }
 
-// Frame and share of the way to the next. Of two frames of an event the later one counts, so no interval has an event inside.
+// Frame and share of the way to the next. Of two frames of an event the later one counts, so that no interval has an event inside, but for the events of a
+// millisecond that have their two frames in common.
 function placeOf(t) {
   const frame = Math.max(0, lastNotAbove(times, t));
   const step = frame < last ? times[frame + 1] - times[frame] : 0;
