@@ -518,8 +518,8 @@ impl Response {
         }
         if (1..=most).contains(&blocks) {
             // This build has all modes of such a column: other equations were supplied.
-            return "the supplied equations lack modes of this column, which ran on those of this build: perhaps not what was meant (generate \
-                    equations for these blocks, to the last digit)"
+            return "the supplied equations lack modes of this column, or have another gravity: these ran on the equations of this build, perhaps not \
+                    what was meant (generate equations for these blocks and this gravity, to the last digit)"
                 .into();
         }
         let remedy = match blocks <= rocking_codegen::LARGEST {

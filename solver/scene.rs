@@ -80,7 +80,7 @@ pub enum DynamicsSource {
     /// Hand-written equations for any N.
     Generic,
     /// Equations that a program has generated in its own build: for more blocks, or baked for one column. Where they lack a mode, as baked ones do once
-    /// blocks have slid, it runs on generated equations of this library, and on generic ones where there are none. Supplied equations are serialised as a
+    /// blocks have slid, or have it with another gravity, it runs on generated equations of this library, and on generic ones where there are none. Supplied equations are serialised as a
     /// name, which cannot be read back.
     #[serde(untagged)]
     Supplied(Equations),
@@ -524,10 +524,12 @@ impl Scene {
         for (component, motion) in components {
             for (name, value) in motion.as_ref().map_or(Vec::new(), |motion| motion.invalid(LARGEST)) {
                 let remedy = match name.rsplit('.').next() {
-                    Some("gamma") => "give a number up to 1e6, above 0 (of mavroeidis-papageorgiou, above 1)",
+                    Some("gamma") => "give a number up to 1e6, above 1e-100 (of mavroeidis-papageorgiou, above 1)",
                     Some("file") => "its largest acceleration is that; scale it to 1e6 m/s² at most",
                     Some("dt") => "give an interval above 1e-9 s, up to 1e6",
-                    Some("velocity") => "it is the velocity or velocity · omega; let both be up to 1e6",
+                    Some("velocity") => {
+                        "it is the velocity or velocity · omega, over gamma where that is below 1; let both be up to 1e6"
+                    }
                     Some("cycles") => "give a whole number of cycles from 1 to 1e6",
                     Some("omega") => "give a frequency above 1e-100 rad/s, up to 1e6",
                     Some("duration") => "give a duration above zero, up to 1e6 s",

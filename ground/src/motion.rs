@@ -148,8 +148,8 @@ impl Motion {
                 let waves = [wave(1.0, 1.0), wave(above, 0.5 * above), wave(below, 0.5 * below)];
                 (start, 2.0 * reach, Piece::sum(&waves))
             }
-            // Of a width that no envelope has, there is nothing: its end would not be after its start.
-            Motion::Gabor { gamma, .. } if gamma <= 0.0 => return Spans::new(),
+            // Of a width that no envelope has, there is nothing: the end would not be after the start, or rates would overflow.
+            Motion::Gabor { gamma, .. } if gamma <= NARROWEST => return Spans::new(),
             Motion::Gabor { velocity, omega, start, phase, gamma } => {
                 let reach = GABOR_REACH * gamma / omega;
                 (start, 2.0 * reach, Piece::Gabor { velocity, omega, centre: start + reach, phase, gamma })
@@ -283,8 +283,8 @@ impl Motion {
     }
 
     /// Names and values of the parameters that are not finite, exceed `largest` in magnitude, or are not above their lower bounds; empty if all are valid.
-    /// Parameters are in SI units. The peak of a record has the name `file`; the largest acceleration of a pulse of velocity, `velocity · omega`, or over
-    /// `gamma` where that is below one, to within a factor of two, has the name `velocity`. In a sum the name is `term[k].name`, with `k` from 1.
+    /// Parameters are in SI units. The peak of a record has the name `file`; half a bound of the acceleration of a pulse of
+    /// velocity, `velocity · omega`, over `gamma` where that is below one, has the name `velocity`. In a sum the name is `term[k].name`, with `k` from 1.
     pub fn invalid(&self, largest: f64) -> Vec<(String, f64)> {
         if let Motion::Sum { terms } = self {
             let of_term = |(index, term): (usize, &Motion)| {
@@ -305,9 +305,10 @@ impl Motion {
         let wave = |amplitude: f64, omega: f64, start: f64, others: &[Parameter]| {
             with(&[("amplitude", amplitude, ANY), ("omega", omega, SLOWEST), ("start", start, ANY)], others)
         };
-        // At the crest, `omega` is the rate of the carrier, and `omega / gamma` that of the envelope.
+        // The carrier changes at the rate `omega`, the envelope at `omega / gamma` at most: the acceleration is at most twice the larger of both.
         let envelope = |velocity: f64, omega: f64, start: f64, gamma: f64, others: &[Parameter]| {
-            let crest = ("velocity", velocity * omega * (1.0 / gamma).max(1.0), ANY);
+            let narrow = if gamma > 0.0 && gamma < 1.0 { 1.0 / gamma } else { 1.0 };
+            let crest = ("velocity", velocity * omega * narrow, ANY);
             with(&[("velocity", velocity, ANY), ("omega", omega, SLOWEST), ("start", start, ANY), crest], others)
         };
         match *self {
@@ -329,7 +330,7 @@ impl Motion {
                 envelope(velocity, omega, start, gamma, &[("phase", phase, ANY), ("gamma", gamma, 1.0)])
             }
             Motion::Gabor { velocity, omega, start, phase, gamma } => {
-                envelope(velocity, omega, start, gamma, &[("phase", phase, ANY), ("gamma", gamma, 0.0)])
+                envelope(velocity, omega, start, gamma, &[("phase", phase, ANY), ("gamma", gamma, NARROWEST)])
             }
             Motion::Rectangular { amplitude, start, duration }
             | Motion::DoubleRectangular { amplitude, start, duration } => {
@@ -349,6 +350,9 @@ type Parameter = (&'static str, f64, f64);
 
 /// Lower bound of the angular frequency of a motion `[rad/s]`. Times of lower ones, such as the reach of a wavelet, may overflow.
 const SLOWEST: f64 = 1e-100;
+
+/// Lower bound of the width `gamma` of a Gabor wavelet `[rad]`. Rates of narrower envelopes may overflow.
+const NARROWEST: f64 = 1e-100;
 
 /// Lower bound of the sampling interval of a motion `[s]`. With shorter intervals, samples of a long record would have the same time.
 const SHORTEST_INTERVAL: f64 = 1e-9;
@@ -443,16 +447,19 @@ pub(crate) mod tests {
     #[test]
     fn a_gabor_wavelet_is_bounded_by_its_width() {
         let gabor = |gamma: f64| Motion::Gabor { velocity: 1.0, omega: 6.0, start: 0.0, phase: 0.0, gamma };
-        for (gamma, name) in [(1e-7, "velocity"), (1e-308, "velocity"), (0.0, "gamma"), (f64::NEG_INFINITY, "gamma")] {
-            assert!(gabor(gamma).invalid(1e6).iter().any(|(own, _)| own == name), "{gamma}");
-        }
+        let names = |gamma: f64| gabor(gamma).invalid(1e6).into_iter().map(|(name, _)| name).collect::<Vec<_>>();
+        assert_eq!(names(1e-7), ["velocity"]);
+        assert_eq!(names(1e-308), ["velocity", "gamma"]);
+        assert!([0.0, -1.0, f64::NEG_INFINITY].iter().all(|gamma| names(*gamma) == ["gamma"]));
+        let narrowest = Motion::Gabor { velocity: 0.0, omega: 6.0, start: 0.0, phase: 0.0, gamma: 1.1e-100 };
+        assert_eq!((narrowest.invalid(1e6), narrowest.peaks(0.0, 1.0)), (vec![], [0.0; 3]));
         for gamma in [0.3, 1.0, 4.0] {
             assert_eq!(gabor(gamma).invalid(1e6), []);
             let crest = 6.0 * (1.0f64 / gamma).max(1.0);
             let pga = gabor(gamma).peaks(0.0, 100.0)[0];
             assert!(pga < 2.0 * crest && pga > 0.5 * crest, "{gamma}: {pga}, not {crest}");
         }
-        for gamma in [f64::NEG_INFINITY, -1.0, 0.0] {
+        for gamma in [f64::NEG_INFINITY, -1.0, 0.0, 1e-308] {
             assert_eq!((gabor(gamma).travel(2.0), gabor(gamma).peaks(0.0, 2.0)), ([0.0; 2], [0.0; 3]));
         }
     }

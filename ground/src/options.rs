@@ -7,7 +7,7 @@ use crate::unit::{AccelerationUnit, DEFAULT_GRAVITY};
 pub struct TextOptions {
     /// Size of one g `[m/s²]`; default [`DEFAULT_GRAVITY`].
     pub gravity: f64,
-    /// Sampling interval `[s]`.
+    /// Sampling interval `[s]`, from 1e-100 to 1e6; of others [`crate::RecordFile::read`] refuses the file.
     pub dt: Option<f64>,
     /// Unit of the accelerations.
     pub units: Option<AccelerationUnit>,

@@ -51,7 +51,7 @@ pub(crate) fn doubtful_samples(accel: &[f64], unit: AccelerationUnit, gravity: f
 pub(crate) fn scaled_too_far(peak: f64, scale: f64) -> Option<String> {
     let (peak, own) = (peak / DEFAULT_GRAVITY, (peak / scale).abs() / DEFAULT_GRAVITY);
     (peak > LARGEST_PEAK_IN_G && own <= LARGEST_PEAK_IN_G).then(|| {
-        format!("it is scaled to a peak above {LARGEST_PEAK_IN_G} g, which is hardly one; is the size to which it is scaled, or the factor, in another unit?")
+        format!("it is scaled to a peak above {LARGEST_PEAK_IN_G} g, which no instrument has recorded; is the size to which it is scaled, or the factor, in another unit?")
     })
 }
 

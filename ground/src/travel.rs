@@ -5,8 +5,8 @@ use crate::motion::Motion;
 use crate::piece::Piece;
 
 impl Motion {
-    /// Velocity and displacement of the ground at `t` `[m/s]`, `[m]`: the acceleration integrated from a ground at rest. For a record this takes as long as
-    /// it has samples before `t`: a whole history is that of [`crate::Record::velocity`] and [`crate::Record::displacement`].
+    /// Velocity and displacement of the ground at `t` `[m/s]`, `[m]`: the acceleration integrated from a ground at rest. For a record this takes time
+    /// and memory in proportion to its samples: a whole history is that of [`crate::Record::velocity`] and [`crate::Record::displacement`].
     ///
     /// ```
     /// use rocking_ground::Motion;

@@ -13,7 +13,7 @@ impl Sample {
     /// Energies relative to the moving ground `[J]`, the potential one in gravity `g` alone: vertical ground motion does work on the blocks.
     ///
     /// # Panics
-    /// If `column` has another number of blocks than the sample.
+    /// If `column` has another number of blocks than the sample has angles, rates or interfaces.
     pub fn energy(&self, column: &Column) -> Energy {
         self.assert_of(column);
         let gravity = column.gravity();
@@ -35,7 +35,7 @@ impl Sample {
     /// that the run recorded: in the axes of the face that carries each contact, with the moment of a corner about its point.
     ///
     /// # Panics
-    /// If `column` has another number of blocks than the sample.
+    /// If `column` has another number of blocks than the sample has angles, rates or interfaces.
     pub fn contact_forces(&self, column: &Column) -> Vec<ContactForce> {
         self.assert_of(column);
         if !self.blocks.is_empty() {
@@ -58,7 +58,7 @@ impl Sample {
     /// ground `[m]`.
     ///
     /// # Panics
-    /// If `column` has another number of blocks than the sample.
+    /// If `column` has another number of blocks than the sample has angles, rates or interfaces.
     pub fn top_displacement(&self, column: &Column) -> [f64; 2] {
         self.assert_of(column);
         // A vector across and along a block, turned clockwise by the angle of the block.

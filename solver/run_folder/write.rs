@@ -30,7 +30,7 @@ pub struct Run<'a> {
     pub scene_text: SceneText,
     /// Duration of the computation `[s]`.
     pub wall_seconds: f64,
-    /// Warnings about the records of the scene and about the run.
+    /// Warnings about the scene ([`Scene::warnings`]) and about the run.
     pub warnings: Vec<String>,
     /// Trust in the run; `None` for a run without companions.
     pub trust: Option<&'a Trust>,

@@ -1,6 +1,6 @@
 //! What a scene may hold but hardly means: numbers that are likely in another unit, or missing. A warning each.
 //!
-//! Warnings hold no numbers of their scene: thousands of scenes of a sweep have each of them once.
+//! Warnings hold no values of their scene: thousands of scenes of a sweep give each of them once.
 
 use super::Scene;
 use crate::column::{Block, Shape};
@@ -31,7 +31,7 @@ pub(super) fn doubts(scene: &Scene) -> Vec<String> {
     let mut coefficients = scene.friction.iter().flat_map(|friction| friction.fixed.iter().chain(&friction.kinetic));
     if coefficients.any(|coefficient| ANGLES_OF_FRICTION.contains(coefficient)) {
         doubts.push(format!(
-            "a coefficient of friction is above {}, which no material has; if it is an angle in degrees, give its tangent (0.70 for 35°)",
+            "a coefficient of friction is {} or more, which no material has; if it is an angle in degrees, give its tangent (0.70 for 35°)",
             ANGLES_OF_FRICTION.start()
         ));
     }
@@ -98,7 +98,7 @@ mod tests {
             doubts(&changed).join(" ")
         };
         let friction = |coefficient: f64| said(&|scene| scene.friction = Some(Friction::uniform(coefficient)));
-        assert!(friction(35.0).contains("a coefficient of friction is above 15"), "{}", friction(35.0));
+        assert!(friction(35.0).contains("a coefficient of friction is 15 or more"), "{}", friction(35.0));
         assert!(friction(10.0).is_empty());
         let harmonic = |phase: f64| Motion::Harmonic { amplitude: 1.0, omega: 5.0, start: 0.0, phase };
         let sum = Motion::Sum { terms: vec![harmonic(0.1), harmonic(90.0)] };

@@ -232,7 +232,7 @@ pub fn tiles(results: &Results) -> String {
     let largest_share = shares.iter().copied().reduce(f64::max).map(|share| format!("|θ|/α up to {}", percent(share)));
     let share = match (largest_share, leaning.is_empty()) {
         (Some(share), true) => share,
-        (Some(share), false) => format!("{share} of stacks that stand by themselves"),
+        (Some(share), false) => format!("{share} in stacks that stand by themselves"),
         (None, _) => "no stack stands by itself".into(),
     };
     tiles.push(("largest angle", degrees(largest), format!("{} rad; {share}", significant(largest, 4))));
