@@ -80,8 +80,8 @@ pub enum DynamicsSource {
     /// Hand-written equations for any N.
     Generic,
     /// Equations that a program has generated in its own build: for more blocks, or baked for one column. Where they lack a mode, as baked ones do once
-    /// blocks have slid, or have it with another gravity, it runs on generated equations of this library, and on generic ones where there are none. Supplied equations are serialised as a
-    /// name, which cannot be read back.
+    /// blocks have slid, or have it with another gravity, it runs on generated equations of this library, and on generic ones where there are none.
+    /// Supplied equations are serialised as a name, which cannot be read back.
     #[serde(untagged)]
     Supplied(Equations),
 }

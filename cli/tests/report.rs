@@ -213,6 +213,21 @@ fn a_long_run_is_thinned_between_its_events() {
     }
 }
 
+/// Blocks of a pile that hang over fall from the start: a stack that does not stand has no balance of which its angle would be a share.
+#[test]
+fn stacks_that_do_not_stand_have_no_share_of_their_balance() {
+    let block = "[[block]]\nhalf_width = 0.4\nhalf_height = 0.5\n";
+    let scene = |slide: &str| format!("{block}{block}{block}[initial]\nslide = [{slide}]\n[solver]\nt_end = 3.0\n");
+    for (slide, told) in
+        [("0.0, 0.0, 0.5", "in stacks that stand by themselves"), ("0.0, 0.5, 0.5", "no stack stands by itself")]
+    {
+        let page = run_text(&Folder::new(), "leaning", &scene(slide)).page();
+        assert_has(&page, &[told]);
+    }
+    let page = run_text(&Folder::new(), "standing", &scene("0.0, 0.1, 0.0")).page();
+    assert!(!page.contains("by themselves") && !page.contains("no stack stands"));
+}
+
 /// Twenty drums that come to rest in a chatter, and 10,001 rows of them: events of a millisecond have two frames in common, and no row is inside; every third
 /// row is kept.
 #[test]
