@@ -1,8 +1,6 @@
 //! Absences that keep the house in order: who knows whom, read from the `use` lines and manifests.
 
-#[path = "common/imports.rs"]
-mod imports;
-
+use crate::common::imports;
 use std::path::{Path, PathBuf};
 
 fn sources(folder: &str) -> Vec<(PathBuf, String)> {

@@ -3,13 +3,8 @@
 //! Every claim is held against a closed form, against the mode integrated alone without events, or against brute force over all patterns
 //! (`common/oracle.rs`), for every accurate method on generated and on generic equations.
 
-#[path = "common/oracle.rs"]
-mod oracle;
-#[path = "common/replay.rs"]
-mod replaying;
-
-use oracle::{impact_answers, opening_answers};
-use replaying::{drift, replay};
+use crate::common::oracle::{impact_answers, opening_answers};
+use crate::common::replay::{drift, replay};
 use rocking::IntegrateOptions;
 use rocking::dynamics::Ground;
 use rocking::pattern::{Interface, Pattern};

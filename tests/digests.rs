@@ -4,6 +4,9 @@
 //! separations, outcome) and the digest of its warnings. What a run cost (`Work`) is left out. `BLESS=1` writes the files anew: only a
 //! commit that mends a bug does that, and says which.
 
+use crate::common::random::Random;
+use crate::common::reference;
+use crate::common::stress;
 use rocking::pattern::Pattern;
 use rocking::scene_file::{Setting, Template};
 use rocking::sweep::{Ask, Axis, Combine, Sweep};
@@ -12,11 +15,6 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-
-#[path = "common/reference.rs"]
-mod reference;
-#[path = "common/stress.rs"]
-mod stress;
 
 /// FNV-1a over 64 bits (Fowler, Noll & Vo).
 struct Digest(u64);
@@ -209,7 +207,7 @@ fn random_scenes_give_what_they_gave() {
 
 /// What an engineer runs: one to four drums of ordinary sizes under synthetic records and pulses for 12 s, with the default method.
 fn everyday(seed: u64) -> Scene {
-    let random = &mut stress::Random::new(0xe5e5 + seed);
+    let random = &mut Random::new(0xe5e5 + seed);
     let (blocks, slenderness) = ([1, 1, 2, 3, 4][random.below(5)], random.within(0.12, 0.4));
     let half_height = random.within(0.5, 3.0);
     let mut text = format!(
@@ -220,7 +218,7 @@ fn everyday(seed: u64) -> Scene {
         let _ = writeln!(text, "[restitution]\neta = {}", random.within(0.8, 1.0));
     }
     let pga = slenderness * random.within(0.8, 4.0);
-    let motion = |random: &mut stress::Random, size: f64| match random.below(4) {
+    let motion = |random: &mut Random, size: f64| match random.below(4) {
         0 => format!("kind = \"sine-pulse\"\namplitude_g = {size}\nomega = {}\n", random.within(1.0, 15.0)),
         1 => format!("kind = \"ricker\"\namplitude_g = {size}\nomega = {}\n", random.within(2.0, 15.0)),
         _ => format!("kind = \"synthetic\"\npga_g = {size}\nseed = {}\nduration = 8.0\n", random.below(1000)),

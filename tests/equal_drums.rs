@@ -1,8 +1,6 @@
 //! Drums of one width, which stand corner on corner when they rock: each corner presses on the other block's face (docs/book/model.md, section 13).
 
-#[path = "common/stress.rs"]
-mod scenes;
-
+use crate::common::random::Random;
 use rocking::{Block, BlockAtEvent, Column, Friction, Motion, Response, Scene, StopReason, simulate};
 
 const GRAVITY: f64 = 9.81;
@@ -67,7 +65,7 @@ fn columns_of_equal_drums_have_a_verdict_whatever_their_friction() {
     let mut undetermined = Vec::new();
     for friction in [0.6, 0.8, 1.0, 1.2, 1.5] {
         for seed in 0..60 {
-            let mut random = scenes::Random::new(seed);
+            let mut random = Random::new(seed);
             let sizes = (2 + random.below(5), random.within(0.2, 0.4), random.within(0.4, 1.25));
             let pulse = (random.within(0.5, 2.5), random.within(0.5, 2.0));
             let run = simulate(&column(sizes, 0.0, friction, pulse)).expect("a run");

@@ -1,9 +1,6 @@
 //! Fragility on made-up data: against closed forms, a search by brute force, and statsmodels.
 
-#[path = "common/random.rs"]
-mod random;
-
-use random::Random;
+use crate::common::random::Random;
 use rocking::Fate;
 use rocking::studies::probit::{Maximum, Probit, Trial, fit};
 use rocking::studies::{Fit, Fragility, FragilityOptions, LimitState, Observation, fractile};
@@ -278,7 +275,7 @@ fn bands_hold_the_truth_about_as_often_as_they_say() {
     assert_eq!(with_bands, 1.0);
 }
 
-/// The table of docs/book/fragility.md: `cargo test --release --test fragility -- --ignored --nocapture`.
+/// The table of docs/book/fragility.md: `cargo test --release --test solver fragility:: -- --ignored --nocapture`.
 #[test]
 #[ignore = "a measurement of twenty seconds"]
 fn coverage_by_number_of_records() {

@@ -3,16 +3,11 @@
 //! Closed forms are those of docs/book/model.md, section 14, by their numbers there: a homogeneous rectangle, `t = b/h`,
 //! `A = ẍ_g/(g + ÿ_g)`. A ground acceleration to the right makes a block slide and tip to the left.
 
-#[path = "common/friction_oracle.rs"]
-mod friction_oracle;
-#[path = "common/random.rs"]
-mod random;
-
-use friction_oracle::{
+use crate::common::friction_oracle::{
     Block, Coinciding, Contact, Friction, Grip, Joint, Side, Solution, Stack, State, Vec2, accelerations, chosen,
     impact, touching,
 };
-use random::Random;
+use crate::common::random::Random;
 
 const GRAVITY: f64 = 9.81;
 

@@ -1,8 +1,7 @@
 //! Generated code and hand-written code give the same accelerations, mass matrices, energies and contact forces, for every mode
 //! and its mirror image.
 
-mod common;
-
+use crate::common;
 use nalgebra::DMatrix;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;

@@ -1,7 +1,6 @@
 //! What must hold whatever the numbers: energy, mirror images, similarity, impacts that never add energy.
 
-mod common;
-
+use crate::common;
 use proptest::prelude::*;
 use rocking::contact::{ImpactLaw, impact};
 use rocking::dynamics::Ground;

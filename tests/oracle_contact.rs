@@ -1,10 +1,7 @@
 //! Contact problems against brute force (`common/oracle.rs`): the search finds what trying all patterns finds.
 
-mod common;
-#[path = "common/oracle.rs"]
-mod oracle;
-
-use oracle::{Answer, impact_answers, opening_answers};
+use crate::common;
+use crate::common::oracle::{Answer, impact_answers, opening_answers};
 use proptest::prelude::*;
 use rocking::contact::{Decision, ImpactLaw, impact, open};
 use rocking::dynamics::Ground;

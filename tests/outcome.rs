@@ -1,8 +1,7 @@
 //! A run that asks for nothing but the outcome gives that of a full run, and ends as soon as it is certain.
 
-#[path = "common/stress.rs"]
-mod scenes;
-
+use crate::common::random::Random;
+use crate::common::stress;
 use rocking::{Column, Friction, Method, Response, Scene, SolveError, StopReason, Wanted, simulate};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -16,7 +15,7 @@ fn wanting(scene: &Scene, wanted: Wanted) -> Result<Response, SolveError> {
 /// What a full run and those for the outcome say of the scene of a seed, if they disagree; and whether these ended early, standing and
 /// falling.
 fn compare(seed: u64) -> (Option<String>, [bool; 2]) {
-    let mut scene = scenes::scene(seed);
+    let mut scene = stress::scene(seed);
     // Methods of order 4 with large steps gain energy: what they say of an outcome is not certain by any proof.
     scene.options.rtol = scene.options.rtol.min(1e-6);
     scene.options.atol = scene.options.atol.min(1e-9);
@@ -25,7 +24,7 @@ fn compare(seed: u64) -> (Option<String>, [bool; 2]) {
 
 /// The same at a loose tolerance, by series.
 fn compare_loosely(seed: u64) -> (Option<String>, [bool; 2]) {
-    let mut scene = scenes::scene(seed);
+    let mut scene = stress::scene(seed);
     (scene.options.rtol, scene.options.atol) = (1e-3, 1e-6);
     scene.options.method = Method::Auto;
     compare_runs(seed, &scene)
@@ -231,7 +230,7 @@ fn a_column_that_may_be_falling_at_the_end_is_told_from_one_that_stands() {
 fn columns_that_overturn_later_may_have_been_falling() {
     let mut counts = [0, 0];
     for seed in 0..600u64 {
-        let mut random = scenes::Random::new(seed);
+        let mut random = Random::new(seed);
         let blocks = 1 + (seed % 3) as usize;
         let angles: Vec<f64> = (0..blocks).map(|_| random.within(-1.0, 1.0)).collect();
         let rates: Vec<f64> = (0..blocks).map(|_| random.within(-0.5, 0.5)).collect();

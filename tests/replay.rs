@@ -1,11 +1,7 @@
 //! No event is missed and none is early: runs of random scenes, integrated again from event to event without event logic.
 
-#[path = "common/replay.rs"]
-mod replaying;
-#[path = "common/stress.rs"]
-mod scenes;
-
-use replaying::replay;
+use crate::common::replay::replay;
+use crate::common::stress;
 use rocking::simulate;
 
 /// What gaps `[rad]` and margins may be below zero by: a released interface is known to 1e-6 of the accelerations.
@@ -19,7 +15,7 @@ const STATE: f64 = 1e-4;
 fn check(seeds: std::ops::Range<u64>, least: usize) {
     let (mut runs, mut phases, mut broken) = (0, 0, Vec::new());
     for seed in seeds {
-        let mut scene = scenes::scene(seed);
+        let mut scene = stress::scene(seed);
         scene.options.rtol = 1e-10;
         scene.options.atol = 1e-13;
         scene.output_dt = None;
@@ -53,9 +49,9 @@ fn regression_a_short_dip_of_a_contact_guard_is_not_missed() {
     check(1615..1616, 1);
 }
 
-/// `cargo test --release --test replay -- --ignored --nocapture`
+/// `cargo test --release --test solver replay:: -- --ignored --nocapture`
 #[test]
 #[ignore = "takes minutes"]
-fn stress_no_event_is_missed() {
+fn no_event_is_missed_in_many_runs() {
     check(0..4_000, 2_000);
 }

@@ -1,10 +1,5 @@
 //! Generated functions over other scalars: dual numbers, double-doubles.
 
-mod common;
-#[allow(dead_code, reason = "the benchmark that it belongs to needs more of it")]
-#[path = "../benches/work_precision/double.rs"]
-mod double;
-
 /// The text of the library's equations once more, for functions that it keeps to itself: its dispatch would compile all linkages of five blocks in
 /// each scalar, a minute for one of them.
 #[allow(clippy::all, dead_code, missing_docs, unused_variables, reason = "generated code is laid out for reading")]
@@ -17,7 +12,8 @@ mod equations {
     }
 }
 
-use double::Double;
+use crate::common;
+use crate::validation_extended_precision::double::Double;
 use proptest::prelude::*;
 use rocking::Column;
 use rocking::generated::geometry;

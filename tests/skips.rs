@@ -1,8 +1,6 @@
 //! What a run leaves out does not change its answer: every skip turned off by itself, and all together, over random scenes.
 
-#[path = "common/stress.rs"]
-mod scenes;
-
+use crate::common::stress;
 use rocking::{Response, Scene, Simulator, Skips, simulate};
 
 /// Events that are compared: later ones of a chaotic run differ by what the first ones rounded.
@@ -10,7 +8,7 @@ const EVENTS: usize = 6;
 
 /// A scene with its runs with all skips and with those of `off`; `None` where both runs fail.
 fn runs(seed: u64, off: Skips) -> Option<(Scene, Response, Response)> {
-    let mut scene = scenes::scene(seed);
+    let mut scene = stress::scene(seed);
     (scene.options.rtol, scene.options.atol) = (1e-11, 1e-14);
     scene.options.method = rocking::Method::Auto;
     match [simulate(&scene), Simulator::with_skips(off).run(&scene)] {

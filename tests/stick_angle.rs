@@ -1,17 +1,10 @@
 //! Rest is reached through infinitely many impacts: what closing the last hops changes goes to zero with `stick_angle`.
 //!
-//! `cargo test --release --test stick_angle -- --nocapture` prints the tables of docs/book/methods.md.
+//! `cargo test --release --test solver stick_angle:: -- --nocapture` prints the tables of docs/book/methods.md.
 
-#[path = "common/differences.rs"]
-mod differences;
-#[path = "common/everyday.rs"]
-mod everyday;
-#[path = "common/random.rs"]
-mod random;
-
-use differences::difference;
-use everyday::everyday;
-use random::Random;
+use crate::common::differences::difference;
+use crate::common::everyday::everyday;
+use crate::common::random::Random;
 use rocking::{Block, Column, Method, Motion, Response, Restitution, Scene, StopReason, simulate};
 
 const FINEST: f64 = 1e-13;

@@ -1,10 +1,8 @@
 //! Random scenes of every kind: nothing panics, stalls, leaves the numbers, gains energy at an impact or breaks its own rules.
 //!
-//! A scene follows from a seed; `ROCKING_SEED=17 cargo test --release --test stress -- --ignored one_seed --nocapture` runs one again.
+//! A scene follows from a seed; `ROCKING_SEED=17 cargo test --release --test solver stress::one_seed -- --ignored --nocapture` runs one again.
 
-#[path = "common/stress.rs"]
-mod scenes;
-
+use crate::common::stress;
 use rocking::{Block, Column, Motion, Scene, SolveError, StopReason, simulate, simulate_observed};
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -40,7 +38,7 @@ fn kind(error: &SolveError) -> &'static str {
 
 /// The outcome of the scene of a seed, what it breaks, and where it was given up. Within `longest` it must go on.
 fn run(seed: u64, longest: Duration) -> (String, Option<String>, Option<String>) {
-    let scene = scenes::scene(seed);
+    let scene = stress::scene(seed);
     let since = Instant::now();
     let observed = catch_unwind(AssertUnwindSafe(|| {
         simulate_observed(&scene, |t| {
@@ -61,11 +59,11 @@ fn run(seed: u64, longest: Duration) -> (String, Option<String>, Option<String>)
         }
         Ok(Ok(response)) => response,
     };
-    let mut broken = scenes::violation(&scene, &response);
+    let mut broken = stress::violation(&scene, &response);
     if broken.is_none() && seed.is_multiple_of(MIRRORED) {
-        match simulate(&scenes::mirrored(&scene)) {
-            Ok(image) if scenes::are_mirror_images(&response, &image) => {}
-            Ok(image) if scenes::part_in_a_tie(&scene, &response, &image) => {}
+        match simulate(&stress::mirrored(&scene)) {
+            Ok(image) if stress::are_mirror_images(&response, &image) => {}
+            Ok(image) if stress::part_in_a_tie(&scene, &response, &image) => {}
             Ok(_) => broken = Some("the mirror image differs".into()),
             Err(error) => broken = Some(format!("the mirror image fails: {error}")),
         }
@@ -133,10 +131,10 @@ fn random_scenes_run_to_their_end() {
     check(0..1500);
 }
 
-/// The long form: `cargo test --release --test stress -- --ignored --nocapture many`.
+/// The long form: `cargo test --release --test solver stress::many -- --ignored --nocapture`.
 #[test]
 #[ignore = "takes minutes; run it after a change to contact, events or phases"]
-fn stress_many_random_scenes() {
+fn many_random_scenes() {
     check(0..100_000);
 }
 
@@ -178,9 +176,9 @@ fn regression_a_light_drum_does_not_go_in_circles() {
 /// One scene again, for a look at it.
 #[test]
 #[ignore = "needs ROCKING_SEED"]
-fn stress_one_seed() {
+fn one_seed() {
     let seed = std::env::var("ROCKING_SEED").ok().and_then(|text| text.parse().ok()).unwrap_or(0);
-    let scene = scenes::scene(seed);
+    let scene = stress::scene(seed);
     println!("{scene:#?}");
     let (outcome, broken, given_up) = run(seed, LONGEST);
     println!("{outcome} {broken:?} {given_up:?}");

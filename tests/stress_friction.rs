@@ -4,16 +4,12 @@
 //! coefficients of 0 to 3, blocks that are thrown, and vertical motion beyond gravity. Their coefficients above 0.8 have several motions, or none,
 //! at some instants (docs/book/model.md, section 16): how many runs meet such an instant, and how many end there, is counted, printed and bounded.
 
-#[path = "common/everyday.rs"]
-mod everyday;
-#[path = "common/stress.rs"]
-mod scenes;
-
-use everyday::everyday;
+use crate::common::everyday::everyday;
+use crate::common::random::Random;
+use crate::common::stress;
 use rocking::column::Shape;
 use rocking::{Block, Column, EventKind, Friction, Method, Response, Restitution, Scene, StopReason};
 use rocking::{simulate, simulate_observed};
-use scenes::Random;
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 use std::ops::ControlFlow;
@@ -75,13 +71,13 @@ fn hostile(random: &mut Random) -> Scene {
     scene.options.t_end = random.scale(0.2, 2.0);
     let t_end = scene.options.t_end;
     let amplitude = random.sign() * GRAVITY * random.scale(1e-2, 10.0);
-    scene.excitation.horizontal = Some(scenes::motion(random, amplitude, t_end));
+    scene.excitation.horizontal = Some(stress::motion(random, amplitude, t_end));
     if random.once_in(2) {
         let amplitude = random.sign() * GRAVITY * random.within(0.2, 3.0);
-        scene.excitation.vertical = Some(scenes::motion(random, amplitude, t_end));
+        scene.excitation.vertical = Some(stress::motion(random, amplitude, t_end));
     }
     match random.below(4) {
-        0 => scenes::tilts(random, &mut scene),
+        0 => stress::tilts(random, &mut scene),
         1 => throw(random, &mut scene),
         _ => {}
     }
@@ -372,7 +368,7 @@ fn run(kind: Kind, seed: u64) -> Tally {
     }
     tally.broken.extend(violation(&scene, &response).map(|text| format!("seed {seed}: {text}")));
     if seed.is_multiple_of(COMPARED) {
-        match simulate(&scenes::mirrored(&scene)) {
+        match simulate(&stress::mirrored(&scene)) {
             Ok(image) if is_decided(&response) && is_decided(&image) => {
                 tally.mirrored += 1;
                 match compared(&response, &image) {
@@ -568,24 +564,24 @@ fn many() -> std::ops::Range<u64> {
     }
 }
 
-/// The long form: `cargo test --release --test stress_friction -- --ignored --nocapture many`.
+/// The long form: `cargo test --release --test solver stress_friction::many -- --ignored --nocapture`.
 #[test]
 #[ignore = "takes minutes; run it after a change to contact, friction or events"]
-fn stress_many_everyday_scenes() {
+fn many_everyday_scenes() {
     check(Kind::Everyday, many(), &EVERYDAY);
 }
 
 /// The same of hostile ones.
 #[test]
 #[ignore = "takes minutes; run it after a change to contact, friction or events"]
-fn stress_many_hostile_scenes() {
+fn many_hostile_scenes() {
     check(Kind::Hostile, many(), &HOSTILE);
 }
 
 /// Coinciding corners that touch in flight and were held as a slide that the projection turned back: they went on along the other face, and the impact gained
 /// 5.7e-8 of the energy.
 #[test]
-fn stress_a_hostile_scene_whose_corners_turn_back() {
+fn a_hostile_scene_whose_corners_turn_back() {
     let tally = run(Kind::Hostile, 446_009);
     assert!(tally.broken.is_empty(), "{:?}", tally.broken);
 }
@@ -593,7 +589,7 @@ fn stress_a_hostile_scene_whose_corners_turn_back() {
 /// One scene again, for a look at it: `ROCKING_SEED=hostile:17`.
 #[test]
 #[ignore = "needs ROCKING_SEED"]
-fn stress_one_seed() {
+fn one_seed() {
     let text = std::env::var("ROCKING_SEED").unwrap_or_default();
     let (kind, seed) = text.split_once(':').unwrap_or(("hostile", &text));
     let kind = if kind == "everyday" { Kind::Everyday } else { Kind::Hostile };

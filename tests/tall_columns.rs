@@ -1,9 +1,7 @@
 //! Columns of five to twelve blocks with friction, whose contact problems the search by violated conditions alone does not solve, or solved wrongly once
 //! (docs/book/model.md, sections 16 to 18).
 
-#[path = "common/stress.rs"]
-mod scenes;
-
+use crate::common::random::Random;
 use rocking::column::Shape;
 use rocking::scene_file::SceneFile;
 use rocking::{Block, Column, EventKind, Friction, Motion, Response, Scene, StopReason, simulate};
@@ -85,7 +83,7 @@ fn impulses_of_corners_have_no_moment_about_them() {
 
 /// A column of drums, 4 to 7 m tall, whose top is 0.85 times as wide as its base, with a coefficient of 0.5 to 0.8, under a one-sine pulse of 0.5 to 1.5 g.
 fn shaken(drums: usize, seed: u64) -> Scene {
-    let mut random = scenes::Random::new(seed);
+    let mut random = Random::new(seed);
     let (base, half_height) = (random.within(0.3, 0.6), 0.5 * random.within(4.0, 7.0) / drums as f64);
     let half_width = |joint: usize| base * (1.0 - 0.15 * joint as f64 / drums as f64);
     let block =

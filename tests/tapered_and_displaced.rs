@@ -1,7 +1,6 @@
 //! Claims about blocks that taper and stand displaced, on equations without sliding (docs/book/model.md, sections 1 and 3).
 
-mod common;
-
+use crate::common;
 use approx::assert_relative_eq;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;

@@ -1,9 +1,6 @@
 //! Runs with friction against those of an independent time-stepping program (`../shared/reference-friction`).
 
-#[path = "common/differences.rs"]
-mod differences;
-
-use differences::difference;
+use crate::common::differences::difference;
 use rocking::{Scene, simulate};
 use serde_json::Value;
 use std::fmt::Write as _;

@@ -12,10 +12,7 @@
 //! Velocities of the centroids and all derivatives of L come from forward-mode dual numbers: exact but for rounding, with no
 //! step to choose.
 
-#[path = "common/random.rs"]
-mod random;
-
-use random::Random;
+use crate::common::random::Random;
 use rocking::dynamics::Ground;
 use rocking::pattern::Pattern;
 use rocking::{Block, Column, Mode};

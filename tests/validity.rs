@@ -1,10 +1,7 @@
 //! What contacts need (`rocking::validity`) does not depend on how long the stretches of a method are.
 
-use random::Random;
+use crate::common::random::Random;
 use rocking::{Block, Column, Method, Motion, Response, Scene, simulate};
-
-#[path = "common/random.rs"]
-mod random;
 
 fn run(text: &str, method: Method) -> Response {
     let mut scene = Scene::from_toml(text, "scene.toml".as_ref()).expect("valid");

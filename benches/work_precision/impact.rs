@@ -6,8 +6,8 @@
 //!     v_i = Σ_{k<i} ω_k R'(θ_k) (p_{k+1} - p_k, 2 h_k) + ω_i R'(θ_i) (-p_i, h_i)
 //! ```
 
-use crate::double::{Double, ZERO};
-use crate::series::solve;
+use super::double::{Double, ZERO};
+use super::series::solve;
 use rocking::Column;
 use rocking::pattern::Pattern;
 use rocking::program::Scalar;

@@ -15,9 +15,9 @@
 //! integration, event location, dense output, Jacobians, solves. A wrong decision would go unnoticed here; what decides between
 //! patterns is tested elsewhere (`solver/contact/`, `cli/tests/validation_reference.rs`).
 
-use crate::double::{Double, ZERO};
-use crate::impact;
-use crate::series::{Mode, Series, expand};
+use super::double::{Double, ZERO};
+use super::impact;
+use super::series::{Mode, Series, expand};
 use rocking::ground::Segment;
 use rocking::pattern::Pattern;
 use rocking::program::Scalar;

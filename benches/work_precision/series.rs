@@ -10,7 +10,7 @@
 //!
 //! `C[k]` and `S[k]` contain `θ̈[k]` by way of `c[k+2]` and `s[k+2]`; its share there is what makes `M` of the left-hand side.
 
-use crate::double::{Double, ZERO};
+use super::double::{Double, ZERO};
 use rocking::generated::{equations, geometry};
 use rocking::ground::{Piece, Segment};
 use rocking::pattern::Pattern;

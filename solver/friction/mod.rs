@@ -27,6 +27,7 @@ mod generated_test;
 #[cfg(test)]
 mod oracle_test;
 #[cfg(test)]
+#[allow(dead_code, reason = "unit tests need less of it than tests of whole runs")]
 #[path = "../../tests/common/random.rs"]
 mod random;
 #[cfg(test)]

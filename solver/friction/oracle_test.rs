@@ -12,6 +12,7 @@ use crate::mechanics::dynamics::Ground;
 use crate::numerics::per_block::PerBlock;
 use friction_oracle::{Coinciding, Side, Stack, State, accelerations, chosen, impact, touching};
 
+#[allow(dead_code, reason = "unit tests need less of it than tests of whole runs")]
 #[path = "../../tests/common/friction_oracle.rs"]
 mod friction_oracle;
 

@@ -1,6 +1,6 @@
 //! Random scenes with friction as engineers have them.
 
-use super::Random;
+use super::random::Random;
 use rocking::{Block, Column, Friction, Motion, Scene};
 
 const GRAVITY: f64 = 9.81;

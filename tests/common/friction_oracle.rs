@@ -16,8 +16,6 @@
 //!
 //! The oracle does not follow a motion in time.
 
-#![allow(dead_code, reason = "each test file takes what it needs")]
-
 #[path = "friction_oracle/geometry.rs"]
 mod geometry;
 

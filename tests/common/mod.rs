@@ -1,5 +1,14 @@
-//! Random columns and states for the tests over whole runs.
-#![allow(dead_code, reason = "each test file takes what it needs")]
+//! What several tests share: oracles, references, random scenes; here, random columns and patterns for property tests.
+
+pub mod differences;
+pub mod everyday;
+pub mod friction_oracle;
+pub mod imports;
+pub mod oracle;
+pub mod random;
+pub mod reference;
+pub mod replay;
+pub mod stress;
 
 use proptest::prelude::*;
 use rocking::pattern::{Interface, Pattern};

@@ -11,8 +11,6 @@
 //!
 //! with `A` the acceleration less gravity, and `γ` what the rates alone bring about at the contact points.
 
-#![allow(dead_code, reason = "each test file takes what it needs")]
-
 use nalgebra::{DMatrix, DVector};
 use rocking::Column;
 use rocking::dynamics::Ground;

@@ -1,5 +1,4 @@
 //! Random numbers of the tests.
-#![allow(dead_code, reason = "each test file takes what it needs")]
 
 /// SplitMix64 (Steele, Lea & Flood 2014): a stream per seed, the same on every machine.
 pub struct Random(u64);

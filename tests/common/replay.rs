@@ -2,7 +2,6 @@
 //!
 //! What the solver's guards should have seen is looked at on a fine grid: no open gap below zero, no closed interface whose resultant is
 //! outside its contact, and the state at the end of the phase that the next event recorded.
-#![allow(dead_code, reason = "each test file takes what it needs")]
 
 use rocking::IntegrateOptions;
 use rocking::dynamics::Ground;

@@ -1,10 +1,6 @@
 //! Random scenes by seed, ordinary and extreme, and what must hold of every run.
-#![allow(dead_code, reason = "each test file takes what it needs")]
 
-#[path = "random.rs"]
-mod random;
-
-pub use random::Random;
+use super::random::Random;
 use rocking::{
     Block, Column, DynamicsSource, Event, EventKind, Excitation, Method, Motion, Record, Response, Restitution, Scene,
     StopReason,

@@ -2,7 +2,7 @@
 
 use super::{GRAVITY, run, scene, slide};
 use crate::common;
-use crate::random::Random;
+use crate::common::random::Random;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use rocking::column::Shape;

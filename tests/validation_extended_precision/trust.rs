@@ -1,9 +1,7 @@
 //! How far runs can be trusted: what companions call determined is what double-doubles say; what is chaotic is called so.
 
-#[path = "../common/stress.rs"]
-mod stress;
-
-use crate::reference::{Settings, replay, tightest};
+use super::reference::{Settings, replay, tightest};
+use crate::common::random::Random;
 use rayon::prelude::*;
 use rocking::ground::{Synthetic, TextOptions};
 use rocking::trust::{self, Trust, TrustOptions, Verdict};
@@ -12,7 +10,6 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
-use stress::Random;
 
 /// Slender stacks in long shaking: harmonic motion or a record, one to three blocks. The record is one of these, or a synthetic one where there are none.
 fn scene(seed: u64, records: &[Record]) -> Scene {
@@ -162,7 +159,7 @@ fn verdicts_called_determined_are_those_of_double_doubles() {
 /// Scenes of the short test.
 const SHORT: u64 = 30;
 
-/// The long form: `ROCKING_SCENES=10000 cargo test --release --test validation_extended_precision trust -- --ignored --nocapture`.
+/// The long form: `ROCKING_SCENES=10000 cargo test --release --test solver validation_extended_precision::trust -- --ignored --nocapture`.
 #[test]
 #[ignore = "takes a fifth of a second per scene"]
 fn verdicts_of_many_long_scenes_called_determined_are_those_of_double_doubles() {
@@ -216,7 +213,7 @@ fn long_scene(seed: u64) -> Scene {
 const CHANGES_TRIED: usize = 24;
 
 /// Which verdicts that are called determined, or likely, some change of the shaking below 1e-6 reverses.
-/// `ROCKING_SCENES=1000 cargo test --release --test validation_extended_precision other_changes -- --ignored --nocapture`
+/// `ROCKING_SCENES=1000 cargo test --release --test solver other_changes -- --ignored --nocapture`
 #[test]
 #[ignore = "takes a second per scene"]
 fn verdicts_called_determined_are_those_of_other_changes() {

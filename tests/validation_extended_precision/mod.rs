@@ -1,8 +1,8 @@
 //! The double-double reference of the benchmark `work_precision` against closed forms and against itself; runs in doubles against
-//! the reference; and how far runs can be trusted ([`trust`]), in the same crate, because the reference takes half a minute to compile.
+//! the reference; and how far runs can be trusted ([`trust`]).
 
 #[path = "../../benches/work_precision/double.rs"]
-mod double;
+pub mod double;
 #[path = "../../benches/work_precision/impact.rs"]
 mod impact;
 #[path = "../../benches/work_precision/reference.rs"]

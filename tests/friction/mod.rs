@@ -1,12 +1,8 @@
 //! Runs with friction: closed forms, and what holds for all of them (docs/book/model.md, on friction).
 
-#[path = "../common/mod.rs"]
-mod common;
 mod flights;
 mod jams_and_edges;
 mod landings;
-#[path = "../common/random.rs"]
-mod random;
 mod slides;
 mod whole_runs;
 
