@@ -245,8 +245,9 @@ fn paired_axes_are_drawn_along_the_first_that_has_numbers() {
     let axes = "combine = \"paired\"\n[axes]\nkind = [\"sine-pulse\", \"ricker\", \"sine-pulse\", \"ricker\"]\nomega_p = [2, 3, 5, 8]\namplitude_uplift = [1.5, 1.5, 4, 9]\n";
     for (ask, x) in [("", "Ω / p"), ("ask = \"peaks\"\n", "Ω / p")] {
         let folder = folder(&scene, &format!("{ask}{axes}"));
-        folder.succeeds("sweep sweep.toml --plot f.svg");
+        let told = folder.succeeds("sweep sweep.toml --plot f.svg");
         assert!(words(&folder, "f.svg").contains(&x.into()));
+        assert!(told.contains("over Ω / p, with which these change: kind, a / (g tan α)."), "{told}");
         folder.succeeds("plot sweep.csv --out again");
         let [first, later] = ["f.svg", "again/sweep.svg"].map(|name| folder.bytes(name));
         assert!(first == later);

@@ -235,7 +235,7 @@ fn caption(points: &Points, family: &Family, measure: &Measure) -> String {
     let &Measure { values, subject, words, .. } = measure;
     let lost = (0..points.len()).filter(|row| values.largest(*row) == Some(f64::INFINITY)).count();
     let open = without_answer(points, measure);
-    let mut text = format!("{subject}: {words} over {}", family.x.label());
+    let mut text = format!("{subject}: {words} over {}", family.along());
     if family.records > 1 {
         text.push_str(&format!(", {} records with their 16, 50 and 84 % fractiles", family.records));
     }

@@ -2,7 +2,7 @@
 
 use super::points::{Axis, Points, combinations, is_drawn};
 use super::refusal::{MOST_CURVES, NoSpectrum};
-use super::scale::{Scale, numbers, titles};
+use super::scale::{Scale, label, numbers, titles};
 use rocking::sweep::is_of_records;
 use std::f64::consts::TAU;
 
@@ -40,6 +40,8 @@ pub struct Family {
     pub is_joined: bool,
     /// Whether all axes change together.
     pub is_paired: bool,
+    /// Names of the quantities that change together with the position to the right.
+    together: Vec<String>,
     /// A title for each curve, or for each panel of records. The empty string if no axis distinguishes curves.
     pub titles: Vec<String>,
     /// Number of records of each curve; 1 unless fractiles are drawn.
@@ -87,10 +89,19 @@ impl Family {
             x,
             is_joined: true,
             is_paired: false,
+            together: Vec::new(),
             titles,
             records: if with_fractiles { count } else { 1 },
             roles,
         })
+    }
+
+    /// What varies to the right, in words.
+    pub fn along(&self) -> String {
+        match &self.together[..] {
+            [] => self.x.label(),
+            others => format!("{}, with which these change: {}", self.x.label(), others.join(", ")),
+        }
     }
 
     /// Whether there are few enough curves, or panels of records, to be read.
@@ -148,7 +159,9 @@ fn paired(axes: &[Axis], places: &[usize], rows: usize) -> Result<Family, NoSpec
     let is_joined = rises(1.0) || rises(-1.0);
     let role = |place| if Some(place) == x_place { Role::X(positions.clone()) } else { Role::Silent };
     let roles = (0..axes.len()).map(role).collect();
-    Ok(Family { x, is_joined, is_paired: true, titles: vec![String::new()], records: 1, roles })
+    let others = places.iter().filter(|place| Some(**place) != x_place);
+    let together = others.map(|place| label(&axes[*place].0)).collect();
+    Ok(Family { x, is_joined, is_paired: true, together, titles: vec![String::new()], records: 1, roles })
 }
 
 /// The horizontal axis, and the positions of its values. The frequency parameter `p` is drawn as its period `2π/p`.

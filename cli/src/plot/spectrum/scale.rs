@@ -214,7 +214,7 @@ fn quantity(key: &str) -> (String, &'static str) {
 }
 
 /// Quantity and unit of a key: `Half-width of block 2 [m]`.
-fn label(key: &str) -> String {
+pub fn label(key: &str) -> String {
     match quantity(key) {
         (name, "") => name,
         (name, unit) => format!("{name} [{unit}]"),

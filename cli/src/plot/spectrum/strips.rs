@@ -25,7 +25,7 @@ pub fn draw(points: &Points, family: &Family, paper: &Paper) -> Figure {
     // Cells reach half way to their neighbours.
     let x = Scale::of(&family.x.key, family.x.values.clone());
     let one = Scale::strip();
-    let what = format!("What becomes of the column over {}", x.label());
+    let what = format!("What becomes of the column over {}", family.along());
     let mut sheet = Sheet::new(&what, paper);
     let width = sheet.width - EDGE - RIGHT;
     let heading = if family.titles == [""] { GAP } else { TITLE };
