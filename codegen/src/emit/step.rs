@@ -20,12 +20,12 @@ pub fn step_type(dof: usize, ground: GroundMotion) -> Ident {
 }
 
 /// The type of mass matrix and energies of this many degrees of freedom.
-pub fn energy_type(dof: usize) -> Ident {
+fn energy_type(dof: usize) -> Ident {
     format_ident!("EnergiesDof{dof}")
 }
 
 /// The type of the weights of this many degrees of freedom.
-pub fn series_type(dof: usize) -> Ident {
+fn series_type(dof: usize) -> Ident {
     format_ident!("SeriesDof{dof}")
 }
 

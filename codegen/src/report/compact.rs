@@ -141,7 +141,7 @@ impl Compact {
 
     /// An expression in the symbols of the derivation: constants replaced by their values, differences of angles by the
     /// addition theorems.
-    pub fn in_full(&self, arena: &mut Arena, expr: Expr) -> Expr {
+    fn in_full(&self, arena: &mut Arena, expr: Expr) -> Expr {
         let with_values = arena.substitute(expr, &self.meaning);
         // A second time, because the values of couplings contain the symbols of levers and moments.
         arena.substitute(with_values, &self.meaning)

@@ -16,7 +16,7 @@ use crate::symbolic::{Arena, Expr};
 use std::fmt::Write;
 
 /// Room for a line of a display [pt]: A4 less margins of 25 mm leaves 455, the equation's number and its gap take 35.
-pub(super) const DISPLAY: f64 = 420.0;
+const DISPLAY: f64 = 420.0;
 
 /// Matrices with more columns than this have narrower gaps: twelve columns would leave the page otherwise.
 const WIDE_MATRIX: usize = 8;

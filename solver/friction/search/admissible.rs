@@ -39,7 +39,7 @@ impl Search<'_> {
 
     /// The states that the search finds if it begins with another state of one interface, or of two neighbours, and with what sticks elsewhere: of
     /// several, those with the least energy of the change. For impacts with too many combinations to be tried.
-    pub(super) fn begun_elsewhere(&self, first: &[Joint]) -> Option<Solution> {
+    fn begun_elsewhere(&self, first: &[Joint]) -> Option<Solution> {
         let with_others = |states: &PerBlock<Joint>, interface: usize| -> Vec<PerBlock<Joint>> {
             let others = self.choices(interface).to_vec().into_iter().filter(|joint| *joint != first[interface]);
             let with = |joint: Joint| {

@@ -72,7 +72,7 @@ impl Search<'_> {
 
     /// The same motion with those slides that begin without an acceleration sticking, where static friction exceeds kinetic: a contact that moves
     /// with one of the same coefficients below it needs no more than kinetic friction.
-    pub(super) fn without_still_slides(&self, found: Solution) -> Solution {
+    fn without_still_slides(&self, found: Solution) -> Solution {
         let is_still = |i: &usize| {
             self.begins_to_slide(&found.joints, *i)
                 && self.friction.kinetic[*i] < self.friction.fixed[*i]
@@ -96,7 +96,7 @@ impl Search<'_> {
 
     /// All states that differ from these in interfaces at rest along their contact alone: each of them sticks or begins to slide to either side, and no more
     /// of them slide than in `joints`. With more than [`MOST_BLOCKS_TRIED`] interfaces, `joints` with one of the slides that begin stuck.
-    pub(super) fn other_slides(&self, joints: &[Joint]) -> Vec<PerBlock<Joint>> {
+    fn other_slides(&self, joints: &[Joint]) -> Vec<PerBlock<Joint>> {
         let (count, mut sticking) = (joints.len(), PerBlock::from_slice(joints));
         let begun: Vec<usize> = (0..count).filter(|i| self.begins_to_slide(joints, *i)).collect();
         if count > MOST_BLOCKS_TRIED {

@@ -14,7 +14,7 @@ pub struct Bernstein {
 
 impl Bernstein {
     /// Highest degree of a dense output.
-    pub const LARGEST_DEGREE: usize = 20;
+    const LARGEST_DEGREE: usize = 20;
 }
 
 /// A piece is not halved below this width: 2⁻⁵⁰ of a step is below the resolution of the time in it.
@@ -24,7 +24,7 @@ const SMALLEST_PIECE: f64 = 1.0 / (1u64 << 50) as f64;
 pub const COEFFICIENTS: usize = Bernstein::LARGEST_DEGREE + 1;
 
 /// Binomial coefficients up to the degree of the longest dense output.
-pub(crate) const BINOMIAL: [[f64; COEFFICIENTS]; COEFFICIENTS] = {
+const BINOMIAL: [[f64; COEFFICIENTS]; COEFFICIENTS] = {
     let mut table = [[0.0; COEFFICIENTS]; COEFFICIENTS];
     let mut n = 0;
     while n < COEFFICIENTS {

@@ -82,7 +82,7 @@ impl Place<'_> {
     }
 
     /// As many ticks as have room for their numbers beside one another.
-    pub fn x_ticks(&self) -> Vec<(f64, String)> {
+    fn x_ticks(&self) -> Vec<(f64, String)> {
         let most = (self.frame.width / 48.0).clamp(2.0, 6.0) as usize;
         let fits = |ticks: &Vec<(f64, String)>| {
             ticks.windows(2).all(|pair| {
@@ -95,7 +95,7 @@ impl Place<'_> {
         fewer.into_iter().find(fits).unwrap_or_default()
     }
 
-    pub fn y_ticks(&self) -> Vec<(f64, String)> {
+    fn y_ticks(&self) -> Vec<(f64, String)> {
         self.y.ticks((self.frame.height / 50.0).clamp(2.0, 6.0) as usize)
     }
 
