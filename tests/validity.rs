@@ -1,7 +1,7 @@
 //! What contacts need (`rocking::validity`) does not depend on how long the stretches of a method are.
 
 use crate::common::random::Random;
-use rocking::{Block, Column, Method, Motion, Response, Scene, simulate};
+use rocking::{Block, Column, Method, Motion, Response, Scene, StopReason, simulate};
 
 fn run(text: &str, method: Method) -> Response {
     let mut scene = Scene::from_toml(text, "scene.toml".as_ref()).expect("valid");
@@ -158,4 +158,23 @@ fn the_point_of_no_return_is_found_within_long_swings() {
         let normal = validity.contacts[1].min_normal_force.value;
         assert!((normal - 22.55).abs() < 0.01, "{method:?}: {normal}");
     }
+}
+
+/// A block that falls in one free swing: only the panels in which its normal force passes zero are read in parts.
+#[test]
+fn a_fall_costs_few_contact_forces() {
+    let text = r#"
+        [column]
+        blocks = 1
+        half_width = 0.4
+        half_height = 1.56
+        [excitation.horizontal]
+        kind = "sine-pulse"
+        amplitude_uplift = 3
+        omega_p = 5
+    "#;
+    let response = run(text, Method::Auto);
+    assert_eq!((response.status, response.work.closed_form_swings), (StopReason::Overturned, 2));
+    assert!(response.min_normal_force[0] < 0.0, "{}", response.min_normal_force[0]);
+    assert!(response.work.force_calls < 200, "{}", response.work.force_calls);
 }

@@ -47,8 +47,7 @@ impl<'a, S: Size, F: Fn(&Mechanism<'a, S>) -> Answer<S>> ContactProblem<'_, 'a, 
                 let excess = contact.moment.abs() - half_width * contact.normal;
                 let is_outside = excess > ROUNDING_SHARE * half_width * contact.normal.abs()
                     && excess > ROUNDING_SHARE * self.cancelling(answer, interface)[1];
-                // The resultant acts at x = -M / N: a negative moment presses on the right corner.
-                is_outside.then_some(if contact.moment < 0.0 { Interface::Right } else { Interface::Left })
+                is_outside.then_some(contact.pressed_corner())
             }
             _ if !self.parts(state, answer, interface) => Some(Interface::Closed),
             _ if contact.normal < 0.0 && -contact.normal > ROUNDING_SHARE * self.cancelling(answer, interface)[0] => {
@@ -342,9 +341,10 @@ mod tests {
         runner.run(strategy, checked).expect("the search agrees with trying all");
     }
 
-    /// docs/book/model.md, section 5, item 3: of all patterns of random stacks of drums exactly one is admissible, and the search finds it.
+    /// docs/book/model.md, section 5, item 3: of all patterns of a random stack of drums nearly always exactly one is admissible, at least of 99 in 100 stacks.
+    /// The search finds what trying all finds.
     #[test]
-    fn the_search_finds_the_one_admissible_pattern() {
+    fn the_search_finds_the_admissible_pattern() {
         let block = (0.3f64..0.5, 0.5f64..1.0).prop_map(|(b, h)| Block::rectangle(b, h, 1.0));
         let stack = (2usize..=4).prop_flat_map(move |n| {
             let state = (-1i8..=1, any::<bool>(), 0.001f64..0.1, 0.0f64..1.0);

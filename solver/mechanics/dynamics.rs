@@ -5,6 +5,7 @@
 //! of blocks ([`crate::generic`]); the integrator is compiled once for each number of degrees of freedom.
 
 pub use crate::numerics::state_vector::StateVector;
+use rocking_codegen::pattern::Interface;
 use rocking_ground::Segment;
 
 /// Ground motion at an instant.
@@ -46,6 +47,12 @@ impl ContactForce {
             (false, true) => 0.0,
             (false, false) => f64::INFINITY,
         }
+    }
+
+    /// The corner that the force presses on: the resultant acts at `x = -M / N` from the centre, so that of a compressive one a negative moment presses on the
+    /// right corner.
+    pub(crate) fn pressed_corner(&self) -> Interface {
+        if self.moment < 0.0 { Interface::Right } else { Interface::Left }
     }
 
     /// The larger of the sizes of the normal and the tangential force.

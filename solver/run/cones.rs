@@ -1,7 +1,8 @@
 //! How far a run without sliding holds: everywhere, or as long as its forces stay within the cones of friction and no contact pulls.
 
+use super::panels::PARTS;
 use super::problem::Problem;
-use super::recorder::{FINER, Recorder, friction_demand_in};
+use super::recorder::{Recorder, friction_demand_in};
 use super::state::State;
 use super::stretch::Stretch;
 use super::transition::Transition;
@@ -28,8 +29,8 @@ pub(crate) trait Limits {
     /// Whether all forces recorded so far are within the limits.
     fn hold(&self, record: &Recorder) -> bool;
 
-    /// Whether forces recorded so far are within the limits by less than what the crests between the places that are read may be off, and are not within
-    /// them in this stretch, which is read anew.
+    /// Whether some demand recorded so far is so little below its limit that a crest between the places at which forces were read may exceed the limit, and
+    /// does so when this stretch is read again in finer panels.
     fn fail_narrowly(&self, record: &Recorder, problem: &Problem, stretch: &mut Stretch) -> bool;
 
     /// Whether a transition and its impulses are within the limits.
@@ -125,7 +126,7 @@ impl Limits for Cones<'_> {
         // The record has the largest demands of all stretches so far.
         exceeds(record.friction_demand(), 1.0 + NARROW)
             && exceeds(&friction_demand_in(problem, 1.0, stretch), 1.0 + NARROW)
-            && exceeds(&friction_demand_in(problem, FINER, stretch), 1.0)
+            && exceeds(&friction_demand_in(problem, PARTS as f64, stretch), 1.0)
     }
 
     fn admit(&self, before: &State, transition: &Transition, record: &Recorder) -> bool {
@@ -141,7 +142,7 @@ impl Limits for Cones<'_> {
             let (demand, coefficient) = (impulse.friction_demand(), self.friction.kinetic[interface]);
             impulse.normal > 0.0 && self.is_within(interface, demand, coefficient, gaps)
         };
-        // The plastic impact must hold by itself: where it slides, it rebounds from another rate (docs/book/model.md, section 17).
+        // The plastic impact must hold by itself: where it slides, it rebounds from another rate (docs/book/model.md, sections 17 and 18).
         noticeable_impulses(&decision.impulses).all(is_held)
             && noticeable_impulses(&decision.plastic_impulses).all(is_held)
     }

@@ -12,6 +12,7 @@ mod modes;
 mod multi_sample_step;
 mod needs;
 mod panel_forces;
+mod panels;
 mod phase;
 mod phase_motion;
 mod problem;

@@ -4,8 +4,9 @@
 //! a fall are dropped.
 
 use super::panel_forces::{PanelForces, place_of_crest};
+use super::panels::Panel;
 use super::state::State;
-use super::stretch::{Inside, Panel};
+use super::stretch::{Ended, Inside, Over, Stretch};
 use crate::column::Column;
 use crate::mechanics::dynamics::ContactForce;
 use crate::numerics::guards::root_between;
@@ -26,10 +27,10 @@ pub(crate) struct Needs {
     counted: Vec<Account>,
     /// What they have needed after `past_since`: it counts once a block has come back.
     pending: Vec<Account>,
-    /// `counted` and `pending` before the present stretch.
-    before: [Vec<Account>; 2],
     /// Whether some extreme of the present stretch has no angle yet.
     is_fresh: bool,
+    /// Whether the column overturns at the end of the present stretch: nothing that is pending will count.
+    overturns: bool,
 }
 
 /// What one contact has needed so far.
@@ -124,33 +125,26 @@ impl Needs {
             is_past,
             counted: vec![Account::NEW; theta.len()],
             pending: vec![Account::NEW; theta.len()],
-            before: [Vec::with_capacity(theta.len()), Vec::with_capacity(theta.len())],
             is_fresh: false,
+            overturns: false,
         }
     }
 
-    /// Begins a stretch that ends at a time `[s]`. `peaks` are the largest angles so far, those of the stretch included `[rad]`.
-    pub fn begin(&mut self, inside: &mut dyn Inside, end: f64, peaks: &[f64]) {
+    /// Begins a stretch. `peaks` are the largest angles so far, those of the stretch included `[rad]`.
+    pub fn begin(&mut self, stretch: &mut Stretch, peaks: &[f64]) {
+        let Stretch { end, ended, inside, .. } = stretch;
+        let end = *end;
+        self.overturns = matches!(ended, Some(Ended::Over(Over::Overturned(_))));
         if margin(peaks, &self.balances) < 0.0 {
             let start = self.last_end;
-            let turns = turning_times(inside, start, end);
+            let turns = turning_times(*inside, start, end);
             let ends = turns.iter().copied().chain([end]);
             ends.fold(start, |from, until| {
-                self.follow_balances(inside, from, until);
+                self.follow_balances(*inside, from, until);
                 until
             });
         }
         self.last_end = end;
-        self.before[0].clone_from(&self.counted);
-        self.before[1].clone_from(&self.pending);
-    }
-
-    /// Forgets the panels that have been added since the present stretch began.
-    pub fn undo_stretch(&mut self) {
-        let [counted, pending] = &self.before;
-        self.counted.clone_from(counted);
-        self.pending.clone_from(pending);
-        self.is_fresh = false;
     }
 
     /// Follows which blocks pass their balance, and which come back, in a part of a stretch `[s]` within which no block reverses its rotation.
@@ -189,11 +183,10 @@ impl Needs {
             self.is_fresh |= !counted.covers(own) && counted.add(own, time, weight);
             return;
         }
-        let (start, end) = (time(0.0), time(1.0));
-        if end <= self.past_since {
+        if self.past_since <= time(0.0) {
+            self.is_fresh |= !self.overturns && pending.add(own, time, weight);
+        } else if time(1.0) <= self.past_since {
             self.is_fresh |= counted.add(own, time, weight);
-        } else if self.past_since <= start {
-            self.is_fresh |= pending.add(own, time, weight);
         } else {
             // A block passes its balance within the panel.
             let passes = root_between(0.0, 1.0, |place| time(place) - self.past_since);

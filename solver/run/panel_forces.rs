@@ -19,8 +19,7 @@ impl PanelForces {
     #[inline(always)]
     pub fn of(forces: [ContactForce; 3], is_monotonic: bool) -> PanelForces {
         let (tangential, normal) = (forces.map(|force| force.tangential), forces.map(|force| force.normal));
-        let largest = |[a, b, c]: [f64; 3]| if is_monotonic { a.max(c) } else { crest([a, b, c]) };
-        let least_normal = -largest(normal.map(|normal| -normal));
+        let least_normal = if is_monotonic { normal[0].min(normal[2]) } else { least_normal(normal) };
         // Between the three places the contact may part while a tangential force acts.
         let parts = least_normal <= 0.0 && tangential.iter().any(|tangential| *tangential != 0.0);
         let (largest_demand, place_of_demand) = match (parts, is_monotonic) {
@@ -108,6 +107,11 @@ fn crest_of_demand(forces: [ContactForce; 3]) -> (f64, f64) {
 /// The pair with the higher first number; the first one of two that are equal.
 fn higher([one, other]: [(f64, f64); 2]) -> (f64, f64) {
     if other.0 > one.0 { other } else { one }
+}
+
+/// The least value of the parabola through normal forces at start, middle and end, between the outer two.
+pub(crate) fn least_normal(normal: [f64; 3]) -> f64 {
+    -crest(normal.map(|normal| -normal))
 }
 
 /// The largest value of the parabola through three equally spaced values, between the outer two.

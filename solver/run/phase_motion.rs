@@ -5,10 +5,11 @@
 
 use super::certainty::verdict;
 use super::error::SolveError;
+use super::panels::{Panel, Reading};
 use super::phase::{Gap, Phase};
 use super::problem::Problem;
 use super::state::{Pace, State};
-use super::stretch::{Ended, Flow, Found, Inside, Over, Panel, Stretch};
+use super::stretch::{Ended, Flow, Found, Inside, Over, Stretch};
 use super::stretch_kinds::{Kind, StepEnd, SwingStretch};
 use crate::column::Column;
 use crate::contact::{critical_acceleration, rounding_acceleration};
@@ -235,7 +236,7 @@ impl Inside for Phase {
         }
     }
 
-    fn forces(&mut self, problem: &Problem, note: &mut dyn FnMut(&Panel)) {
+    fn forces(&mut self, problem: &Problem, note: &mut dyn FnMut(&Panel) -> Reading) {
         match self.last.kind {
             Kind::Step(step) => self.forces_in_step(problem, step, note),
             Kind::Swing(swing) => self.forces_in_swing(problem, &swing, note),
@@ -247,6 +248,7 @@ impl Inside for Phase {
                 note(&Panel {
                     forces: [&self.forces.start.forces; 3],
                     is_monotonic: true,
+                    is_divisible: false,
                     time: &|_| self.t,
                     weight: 1.0,
                 });

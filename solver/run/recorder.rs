@@ -4,10 +4,11 @@ use super::certainty::verdict;
 use super::log::{Extremes, Log, Rows, RowsMark};
 use super::modes::Modes;
 use super::needs::Needs;
-use super::panel_forces::PanelForces;
+use super::panel_forces::{PanelForces, least_normal};
+use super::panels::{Panel, Reading};
 use super::problem::Problem;
 use super::state::State;
-use super::stretch::{Over, Panel, Stretch};
+use super::stretch::{Over, Stretch};
 use super::transition::Transition;
 use crate::column::Column;
 use crate::contact::noticeable_impulses;
@@ -16,12 +17,9 @@ use crate::response::{Event, EventKind, Impulse, ModeName, Response, Sample, Sep
 use rocking_codegen::pattern::Pattern;
 use std::collections::BTreeMap;
 
-/// Share of the weight above a contact below which its normal force is read in finer panels, as the sign of the force decides whether the contact parts.
-/// Normal forces that are parabolas over a panel were found to be off by up to 1.4e-4 of the weight.
+/// Share of the weight above a contact. A panel whose least normal force is less than this from zero is read in parts, as the sign of the force decides whether
+/// the contact parts. Normal forces that are parabolas over a panel were found to be off by up to 1.4e-4 of the weight.
 const NEARLY_NO_FORCE: f64 = 2e-3;
-
-/// Number of panels of the finer ones in each: what parabolas leave out falls with the third power.
-pub(crate) const FINER: f64 = 16.0;
 
 /// The record of a run under way.
 pub(crate) struct Recorder {
@@ -32,6 +30,8 @@ pub(crate) struct Recorder {
     largest_gaps: PerBlock<f64>,
     /// Friction demands and normal forces up to the point of no return, with times; `None` unless forces are recorded.
     needs: Option<Needs>,
+    /// Per interface, the size of a normal force that is nearly none `[N]`; empty unless forces are recorded.
+    nearly_no_force: PerBlock<f64>,
     separations: Vec<Separation>,
     /// Time at which the present motion was entered `[s]`.
     entered_at: f64,
@@ -61,6 +61,7 @@ impl Recorder {
             pattern: start.pattern.clone(),
             largest_gaps: if problem.records_gaps { PerBlock::filled(0.0, blocks) } else { PerBlock::new() },
             needs: records_forces.then(|| Needs::new(&problem.scene.column, start.t, &start.theta)),
+            nearly_no_force: if records_forces { nearly_no_force(&problem.scene.column) } else { PerBlock::new() },
             separations: Vec::new(),
             entered_at: start.t,
             times: Vec::new(),
@@ -137,16 +138,12 @@ impl Recorder {
         if !problem.records_forces() {
             return;
         }
-        let Recorder { needs, log, .. } = self;
+        let Recorder { needs, log, nearly_no_force, .. } = self;
         let Extremes { peak_theta, friction_demand, min_normal_force, .. } = &mut log.extremes;
         if let Some(needs) = needs {
-            needs.begin(stretch.inside, stretch.end, peak_theta);
+            needs.begin(stretch, peak_theta);
         }
-        let mut found = ForceExtremes::of(problem, stretch, needs.as_mut());
-        if found.come_near_zero(&problem.scene.column) {
-            needs.iter_mut().for_each(Needs::undo_stretch);
-            found = ForceExtremes::of(&problem.with_panels(FINER), stretch, needs.as_mut());
-        }
+        let found = ForceExtremes::of(problem, stretch, nearly_no_force, needs.as_mut());
         if let Some(needs) = needs {
             needs.end(stretch.inside);
         }
@@ -276,11 +273,11 @@ impl Recorder {
 pub(crate) fn friction_demand_in(problem: &Problem, panels: f64, stretch: &mut Stretch) -> PerBlock<f64> {
     let finer = problem.with_panels(panels);
     if !stretch.is_coarse {
-        return ForceExtremes::of(&finer, stretch, None).friction_demand;
+        return ForceExtremes::of(&finer, stretch, &[], None).friction_demand;
     }
     let mut demand = PerBlock::filled(0.0, problem.scene.column.len());
     stretch.inside.refine(problem, &mut |part| {
-        let found = ForceExtremes::of(&finer, part, None).friction_demand;
+        let found = ForceExtremes::of(&finer, part, &[], None).friction_demand;
         demand.iter_mut().zip(&found).for_each(|(known, found): (&mut f64, &f64)| *known = known.max(*found));
     });
     demand
@@ -295,42 +292,58 @@ struct ForceExtremes {
 }
 
 impl ForceExtremes {
-    /// Those of a stretch that is not coarse, which is added to the account of what contacts need.
-    fn of(problem: &Problem, stretch: &mut Stretch, needs: Option<&mut Needs>) -> ForceExtremes {
+    /// Those of a stretch that is not coarse, which is added to the account of what contacts need. Panels are read in parts where a normal force is less than an
+    /// entry of `nearly_no_force` from zero.
+    fn of(
+        problem: &Problem,
+        stretch: &mut Stretch,
+        nearly_no_force: &[f64],
+        needs: Option<&mut Needs>,
+    ) -> ForceExtremes {
         let blocks = problem.scene.column.len();
         let (mut demand, mut least) = (PerBlock::filled(0.0, blocks), PerBlock::filled(f64::INFINITY, blocks));
         match needs {
             Some(needs) => stretch.inside.forces(problem, &mut |panel| {
-                raise_forces(panel, (&mut demand, &mut least), |interface, own| needs.add(interface, panel, own));
+                let account = |interface, own: &PanelForces| needs.add(interface, panel, own);
+                read(panel, nearly_no_force, (&mut demand, &mut least), account)
             }),
-            None => {
-                stretch.inside.forces(problem, &mut |panel| raise_forces(panel, (&mut demand, &mut least), |_, _| ()));
-            }
+            None => stretch
+                .inside
+                .forces(problem, &mut |panel| read(panel, nearly_no_force, (&mut demand, &mut least), |_, _| ())),
         }
         ForceExtremes { friction_demand: demand, normal_force: least }
     }
+}
 
-    /// Whether a normal force comes so near zero that parabolas through few values may give it the wrong sign.
-    fn come_near_zero(&self, column: &Column) -> bool {
-        let weight = |interface: usize| column.mass_above(interface) * column.gravity();
-        let is_near = |(i, force): (usize, &f64)| force.abs() < NEARLY_NO_FORCE * weight(i);
-        self.normal_force.iter().enumerate().any(is_near)
-    }
+/// Per interface, the size of a normal force that is nearly none `[N]`.
+fn nearly_no_force(column: &Column) -> PerBlock<f64> {
+    (0..column.len()).map(|interface| NEARLY_NO_FORCE * column.mass_above(interface) * column.gravity()).collect()
+}
+
+/// Whether a normal force of a panel comes so near zero that the parabola through three values may give it the wrong sign.
+fn comes_near_zero(panel: &Panel, nearly_no_force: &[f64]) -> bool {
+    let least = |interface: usize| least_normal(panel.forces.map(|forces| forces[interface].normal));
+    nearly_no_force.iter().enumerate().any(|(interface, nearly_none)| least(interface).abs() < *nearly_none)
 }
 
 /// Raises the largest friction demands and lowers the least normal forces, per interface, by those of a panel: extremes of the parabolas through its
-/// contact forces at start, middle and end. Calls `account` with each interface and its values.
+/// contact forces at start, middle and end. Calls `account` with each interface and its values. A panel that must be divided changes nothing.
 #[inline(always)]
-fn raise_forces(
+fn read(
     panel: &Panel,
+    nearly_no_force: &[f64],
     (friction_demand, min_normal_force): (&mut [f64], &mut [f64]),
     mut account: impl FnMut(usize, &PanelForces),
-) {
+) -> Reading {
+    if panel.is_divisible && comes_near_zero(panel, nearly_no_force) {
+        return Reading::TooLong;
+    }
     for (interface, (largest, least)) in friction_demand.iter_mut().zip(min_normal_force).enumerate() {
         let own = PanelForces::of(panel.forces.map(|forces| forces[interface]), panel.is_monotonic);
         (*least, *largest) = (least.min(own.least_normal), largest.max(own.largest_demand));
         account(interface, &own);
     }
+    Reading::Taken
 }
 
 /// The event of a transition of a column of this size.

@@ -1,12 +1,13 @@
 //! The column at rest, waiting for the ground to start it ([`super::start_from_rest`]): no integration, and forces from the ground's acceleration alone.
 
 use super::error::SolveError;
+use super::panels::{Panel, Reading};
 use super::problem::Problem;
 use super::progress::{find_at_rest, report_segment};
 use super::rest_guards::GroundWithBounds;
 use super::start_from_rest::{earliest_start, is_thrown_open, least_uplift};
 use super::state::State;
-use super::stretch::{Ended, Flow, Inside, Over, Panel, Stretch};
+use super::stretch::{Ended, Flow, Inside, Over, Stretch};
 use crate::column::Column;
 use crate::mechanics::dynamics::{ContactForce, Energy, Ground};
 use crate::numerics::guards::first_crossing;
@@ -98,7 +99,7 @@ impl Inside for Rest {
 
     fn raise_gaps(&mut self, _: &mut [f64]) {}
 
-    fn forces(&mut self, problem: &Problem, note: &mut dyn FnMut(&Panel)) {
+    fn forces(&mut self, problem: &Problem, note: &mut dyn FnMut(&Panel) -> Reading) {
         let (column, end, (mut t, first)) = (&problem.scene.column, self.until.0, self.since);
         for segment in &problem.ground[first..=self.last] {
             if t < self.held_until {
@@ -110,7 +111,8 @@ impl Inside for Rest {
                 let start = if before.is_empty() { here } else { &before[..] };
                 let middle: PerBlock<ContactForce> = start.iter().zip(here).map(|(a, b)| mean(a, b)).collect();
                 let time = |place: f64| from + place * (until - from);
-                note(&Panel { forces: [start, &middle, here], is_monotonic: true, time: &time, weight: 1.0 });
+                let forces = [start, &middle, here];
+                note(&Panel { forces, is_monotonic: true, is_divisible: false, time: &time, weight: 1.0 });
                 before = PerBlock::from_slice(here);
             });
             t = until;

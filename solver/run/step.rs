@@ -12,10 +12,12 @@
 use super::error::SolveError;
 use super::expected_event;
 use super::force_cache::KnownPart;
+use super::panels::{Panel, Panels, Reading};
 use super::phase::{Gap, Phase};
 use super::problem::Problem;
-use super::stretch::{Ended, Found, Over, Panel};
+use super::stretch::{Ended, Found, Over};
 use super::stretch_kinds::{Kind, StepEnd};
+use crate::mechanics::dynamics::ContactForce;
 use crate::mechanics::integrator::Excursion;
 use crate::mechanics::margins::Opening;
 use crate::numerics::guards::{first_crossing, polished};
@@ -23,7 +25,6 @@ use crate::numerics::ode::control::{Attempt, Part};
 use crate::numerics::per_block::PerBlock;
 use crate::numerics::polynomial::difference::Difference;
 use crate::response::ModeName;
-use rocking_codegen::pattern::Interface;
 
 /// The guard that is zero inside a step.
 #[derive(Clone, Copy, Debug)]
@@ -280,8 +281,7 @@ impl Phase {
         Some(match guard {
             StepEvent::Contact { interface } => {
                 self.evaluate_end_forces(problem, end);
-                let side = if self.forces.last[interface].moment < 0.0 { Interface::Right } else { Interface::Left };
-                Ended::Opening(interface, side)
+                Ended::Opening(interface, self.forces.last[interface].pressed_corner())
             }
             StepEvent::Tilt { link, .. } => Ended::Over(Over::Overturned(self.gaps[link].interface)),
             StepEvent::Gap(gap) => {
@@ -331,7 +331,7 @@ impl Phase {
     }
 
     /// See [`Inside::forces`](super::stretch::Inside::forces). Forces at the end are kept for the next step.
-    pub(super) fn forces_in_step(&mut self, problem: &Problem, step: StepEnd, note: &mut dyn FnMut(&Panel)) {
+    pub(super) fn forces_in_step(&mut self, problem: &Problem, step: StepEnd, note: &mut dyn FnMut(&Panel) -> Reading) {
         self.evaluate_start_forces(problem);
         self.evaluate_end_forces(problem, step.end);
         let last = self.forces.last.clone();
@@ -345,21 +345,15 @@ impl Phase {
             + PANELS_OF_LONGEST_WAVELET_STEP * (step.h / segment.longest_series())
             + PANELS_PER_OWN_TIME * (step.h * self.fastest);
         let panels = (problem.panels * usual.ceil().clamp(1.0, MOST_PANELS)) as usize;
-        let at = |place: f64| place / panels as f64;
-        let (mut start, mut end) = (self.forces.start.forces.clone(), last.clone());
-        for panel in 0..panels {
-            if panel + 1 < panels {
-                self.evaluate_forces_at_share(problem, step, at(panel as f64 + 1.0));
-                std::mem::swap(&mut end, &mut self.forces.last);
-            } else {
-                end.copy_from_slice(&last);
+        let (start, started, count) = (self.forces.start.forces.clone(), self.t, panels as f64);
+        let forces_at = |place: f64, forces: &mut [ContactForce]| {
+            if place == count {
+                return forces.copy_from_slice(&last);
             }
-            self.evaluate_forces_at_share(problem, step, at(panel as f64 + 0.5));
-            let time = |place: f64| self.t + step.h * at(panel as f64 + place);
-            let forces = [&start, &self.forces.last, &end].map(|forces| &forces[..]);
-            note(&Panel { forces, is_monotonic: false, time: &time, weight: 1.0 });
-            std::mem::swap(&mut start, &mut end);
-        }
+            self.evaluate_forces_at_share(problem, step, place / count);
+            forces.copy_from_slice(&self.forces.last);
+        };
+        Panels::new(start, 1.0, forces_at, |place| started + step.h * (place / count)).show(panels, note);
         self.forces.last.copy_from_slice(&last);
         self.forces.end.keep(&last, problem.interfaces(), &self.linkage.closed, &problem.scene.column);
     }

@@ -1,9 +1,9 @@
 //! A stretch of a run: a span of time without an event, its inside, and why it ended.
 
 use super::error::SolveError;
+use super::panels::{Panel, Reading};
 use super::problem::Problem;
 use super::state::State;
-use crate::mechanics::dynamics::ContactForce;
 use crate::numerics::per_block::PerBlock;
 use crate::response::Work;
 use rocking_codegen::pattern::Interface;
@@ -72,8 +72,8 @@ pub(crate) trait Inside {
     /// Raises `gaps`, the largest magnitude of each interface's gap so far `[rad]`, by the gaps in the stretch.
     fn raise_gaps(&mut self, gaps: &mut [f64]);
 
-    /// Calls `note` with the contact forces of panels so short that forces are parabolas over them.
-    fn forces(&mut self, problem: &Problem, note: &mut dyn FnMut(&Panel));
+    /// Shows `note` the contact forces, panel by panel ([`super::panels`]).
+    fn forces(&mut self, problem: &Problem, note: &mut dyn FnMut(&Panel) -> Reading);
 
     /// Visits finer stretches in place of a coarse one.
     fn refine(&mut self, _problem: &Problem, _visit: &mut dyn FnMut(&mut Stretch)) {}
@@ -85,18 +85,6 @@ pub(crate) trait Inside {
 
     /// Overwrites `after`, the state that the motion was entered with, by `x⁻`, the state at the end of the stretch. The motion ends there.
     fn end<'s>(&mut self, after: &'s mut State) -> &'s mut State;
-}
-
-/// Contact forces over a part of a stretch.
-pub(crate) struct Panel<'a> {
-    /// At start, middle and end.
-    pub forces: [&'a [ContactForce]; 3],
-    /// Whether forces are monotonic from start to end: their extremes are then at the ends.
-    pub is_monotonic: bool,
-    /// Time of a place, 0 to 1 from start to end `[s]`; evaluated on demand.
-    pub time: &'a dyn Fn(f64) -> f64,
-    /// How often the motion passes the panel: a swing goes out and comes back.
-    pub weight: f64,
 }
 
 /// What moves a column from one event to the next: the column at rest, or a mode.

@@ -3,16 +3,17 @@
 //! Contact forces depend on the angle, the square of its rate and its acceleration, so they are the same on the way out and back: the
 //! margins of closed interfaces are polynomials of sine and cosine of the angle ([`crate::mechanics::harmonics`]).
 
+use super::panels::{Panel, Panels, Reading};
 use super::phase::Phase;
 use super::problem::Problem;
 use super::step::PANELS_PER_RADIAN_TURNED;
-use super::stretch::{Ended, Found, Over, Panel};
+use super::stretch::{Ended, Found, Over};
 use super::stretch_kinds::{Course, Kind, SwingStretch};
+use crate::mechanics::dynamics::ContactForce;
 use crate::mechanics::harmonics::Critical;
 use crate::mechanics::pendulum::Pendulum;
 use crate::numerics::guards::{first_crossing, polished};
 use crate::numerics::per_block::PerBlock;
-use rocking_codegen::pattern::Interface;
 
 /// A part of a swing between two angles.
 #[derive(Clone, Copy)]
@@ -160,7 +161,7 @@ impl Phase {
         let size = course.swing.rate_at(psi).unwrap_or(0.0);
         let v = if to > from { size } else { -size };
         self.evaluate_forces_at_angle(problem, course, psi);
-        let side = if self.forces.last[interface].moment < 0.0 { Interface::Right } else { Interface::Left };
+        let side = self.forces.last[interface].pressed_corner();
         Some(End { ended: Ended::Opening(interface, side), psi, v, time: course.swing.time_to(psi, v) })
     }
 
@@ -178,7 +179,12 @@ impl Phase {
     }
 
     /// Forces from the start of the swing to its crest, if it has turned, and to its end.
-    pub(super) fn forces_in_swing(&mut self, problem: &Problem, swing: &SwingStretch, note: &mut dyn FnMut(&Panel)) {
+    pub(super) fn forces_in_swing(
+        &mut self,
+        problem: &Problem,
+        swing: &SwingStretch,
+        note: &mut dyn FnMut(&Panel) -> Reading,
+    ) {
         let turn = if swing.has_turned() { swing.course.swing.turning_point() } else { None };
         let (start, end) = (swing.course.start, swing.end[0]);
         let Some(turn) = turn else {
@@ -200,33 +206,31 @@ impl Phase {
         problem: &Problem,
         course: &Course,
         Leg { from, to, weight }: Leg,
-        note: &mut dyn FnMut(&Panel),
+        note: &mut dyn FnMut(&Panel) -> Reading,
     ) {
         if from == to {
             return;
         }
         let usual = (PANELS_PER_RADIAN_TURNED * (to - from).abs()).ceil().max(1.0);
         let panels = (problem.panels * usual) as usize;
-        let mut start = if from == course.start {
+        let start = if from == course.start {
             self.evaluate_start_forces(problem);
             self.forces.start.forces.clone()
         } else {
             self.evaluate_forces_at_angle(problem, course, from);
             self.forces.last.clone()
         };
-        for panel in 0..panels {
-            let at = |place: f64| from + (to - from) * place / panels as f64;
-            self.evaluate_forces_at_angle(problem, course, at(panel as f64 + 0.5));
-            let middle = self.forces.last.clone();
-            self.evaluate_forces_at_angle(problem, course, at(panel as f64 + 1.0));
-            let time = |place: f64| {
-                let size = course.swing.rate_at(at(place)).unwrap_or(0.0);
-                self.t + course.swing.time_to(at(place), if to > from { size } else { -size })
-            };
-            let forces = [&start, &middle, &self.forces.last].map(|forces| &forces[..]);
-            note(&Panel { forces, is_monotonic: false, time: &|share| time(panel as f64 + share), weight });
-            start.copy_from_slice(&self.forces.last);
-        }
+        let started = self.t;
+        let at = |place: f64| from + (to - from) * place / panels as f64;
+        let forces_at = |place: f64, forces: &mut [ContactForce]| {
+            self.evaluate_forces_at_angle(problem, course, at(place));
+            forces.copy_from_slice(&self.forces.last);
+        };
+        let time = |place: f64| {
+            let size = course.swing.rate_at(at(place)).unwrap_or(0.0);
+            started + course.swing.time_to(at(place), if to > from { size } else { -size })
+        };
+        Panels::new(start, weight, forces_at, time).show(panels, note);
     }
 }
 

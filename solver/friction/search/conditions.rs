@@ -84,10 +84,8 @@ impl Search<'_> {
                 if pulls {
                     return Some(Joint::Free);
                 }
-                // The resultant is at -M / N from the centre.
                 if contact.moment.abs() > reach * (contact.normal + slack) {
-                    let side = if contact.moment > 0.0 { -1 } else { 1 };
-                    return Some(self.corner(interface, side, slip));
+                    return Some(self.corner(interface, contact.pressed_corner().sign(), slip));
                 }
                 self.wrong_slip(interface, joint, answer, violation).map(Joint::Closed)
             }
