@@ -583,7 +583,7 @@ impl Stack {
         (self.mass * self.gravity * self.radius() / self.inertia).sqrt()
     }
 
-    /// Horizontal ground acceleration at which the stack tips from rest, `c g / h_P` `[m/s²]`, with `c` the lever (docs/book/model.md, section 4).
+    /// Horizontal ground acceleration at which the stack tips from rest, `c g / h_P` `[m/s²]`, with `c` the lever (docs/book/model.md, sections 1 and 4).
     pub fn uplift_acceleration(&self) -> f64 {
         self.half_width * self.gravity / self.centroid_height
     }

@@ -74,11 +74,11 @@ pub(crate) fn event_loop<L: Limits>(
         Departure::Beginning(state) => (state, true),
         Departure::Decided(state) => (state, false),
     };
-    // Two states serve all events.
+    // Two states serve all events: `before_event` is x⁻ of the event that began the phase, `after` its x⁺. At the next event they change places.
     let mut storage = initial.clone();
-    let (mut spare, mut after) = (&mut initial, &mut storage);
+    let (mut before_event, mut after) = (&mut initial, &mut storage);
     if is_beginning {
-        match begin(problem, spare, after, recorder) {
+        match begin(problem, before_event, after, recorder) {
             Err(_) if L::ARE_THERE => return Ok(Leaving::Beyond(Exceeded::Start)),
             done => done?,
         }
@@ -90,12 +90,12 @@ pub(crate) fn event_loop<L: Limits>(
         let mut stretch = match motion.next(problem, progress) {
             Ok(stretch) => stretch,
             Err(error @ SolveError::Cancelled { .. }) => return Err(error),
-            Err(_) if L::ARE_THERE => return Ok(Leaving::Beyond(rollback.before(recorder, spare))),
+            Err(_) if L::ARE_THERE => return Ok(Leaving::Beyond(rollback.before(recorder, before_event))),
             Err(error) => return Err(error),
         };
         recorder.read(problem, &mut stretch);
         if L::ARE_THERE && (!limits.hold(recorder) || limits.fail_narrowly(recorder, problem, &mut stretch)) {
-            return Ok(Leaving::Beyond(rollback.beyond(problem, &mut stretch, mode, recorder, [spare, after])));
+            return Ok(Leaving::Beyond(rollback.beyond(problem, &mut stretch, mode, recorder, [before_event, after])));
         }
         let Some(ended) = stretch.ended else {
             if L::ARE_THERE {
@@ -125,17 +125,17 @@ pub(crate) fn event_loop<L: Limits>(
             }
         };
         (rollback, stretches) = (Rollback::new::<L>(recorder, Some((ended, closing))), 0);
-        after = next.after(before, spare);
+        after = next.after(before, before_event);
         recorder.transition(problem, before, next, after);
-        spare = before;
+        before_event = before;
         if next.may_cycle(after) {
             if L::ARE_THERE {
-                return Ok(Leaving::Beyond(rollback.before(recorder, spare)));
+                return Ok(Leaving::Beyond(rollback.before(recorder, before_event)));
             }
             if let Some(forced) = break_cycle(problem, after)? {
-                let closed = forced.after(after, spare);
+                let closed = forced.after(after, before_event);
                 recorder.transition(problem, after, &forced, closed);
-                (spare, after) = (after, closed);
+                (before_event, after) = (after, closed);
             }
         }
         (mode, motion) = modes.enter(problem, after);
@@ -172,17 +172,17 @@ impl Rollback {
         Rollback { event: event.filter(|_| L::ARE_THERE).map(marked), reached: None }
     }
 
-    /// The place before a stretch that is beyond the limits. `spare` is `x⁻` of the event that began the phase, `after` the state that followed.
+    /// The place before a stretch that is beyond the limits. `before_event` and `after` are x⁻ and x⁺ of the event that began the phase.
     fn beyond(
         self,
         problem: &Problem,
         stretch: &mut Stretch,
         mode: usize,
         recorder: &mut Recorder,
-        [spare, after]: [&State; 2],
+        [before_event, after]: [&State; 2],
     ) -> Exceeded {
         let Some((t, mark)) = self.reached else {
-            return self.before(recorder, spare);
+            return self.before(recorder, before_event);
         };
         recorder.undo(mark);
         let (theta, omega) = stretch.inside.state_at(t);

@@ -69,8 +69,9 @@ impl Modes {
         true
     }
 
-    /// For motions of a column whose blocks stand elsewhere than the scene's column, or do not: to be said before they are entered.
-    pub fn after_slides(&mut self, have_slid: bool) {
+    /// Says whether blocks stand elsewhere than in the scene's column, so that equations supplied for that column are not expected to serve. To be called
+    /// before motions are entered.
+    pub fn set_have_slid(&mut self, have_slid: bool) {
         self.have_slid = have_slid;
     }
 

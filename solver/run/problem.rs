@@ -90,7 +90,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// The problem with contact forces read in this many times as many panels.
+    /// The problem with contact forces read in `panels` times the usual number of panels.
     pub fn with_panels(&self, panels: f64) -> Problem<'a> {
         Problem { kappa: self.kappa.clone(), panels, ..*self }
     }

@@ -1,6 +1,7 @@
 //! Guards of a column at rest, and their first zeros.
 //!
-//! At rest every guard is `c_i (g + ÿ_g) ± h_Pi ẍ_g` (docs/book/model.md, section 4; the paper's Eq. 1). On a piece of ground motion with a bounded
+//! At rest every guard is `a (g + ÿ_g) ± b ẍ_g`: of an opening `a = c_i` and `b = h_Pi` (docs/book/model.md, section 4; the paper's Eq. 1), of a slide
+//! `a = μ_i` and `b = 1` (section 15), of the weight `a = 1` and `b = 0`. On a piece of ground motion with a bounded
 //! second derivative, the parabola with the guard's value and slope that bends down by this bound lies below the guard. A step to the zero of this
 //! parabola cannot jump over a root: the search is conservative and converges quadratically.
 

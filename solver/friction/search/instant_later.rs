@@ -1,4 +1,4 @@
-//! Corners that coincide and begin to slide: an instant later they lie on one face (docs/book/model.md, section 16).
+//! Corners that coincide and begin to slide: an instant later they lie on one face (docs/book/model.md, section 13).
 
 use super::{Search, Solution};
 use crate::friction::joint::{Face, Joint, Sign, Slip, coincidence, face};

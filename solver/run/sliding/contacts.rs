@@ -10,7 +10,7 @@ use crate::mechanics::kinematics::Vec2;
 /// Gap that is rounding, as a share of the column's size; gap of angles that is rounding `[rad]`.
 const GAP_SHARE: f64 = 1e-12;
 
-/// Share of the speed of a fall from a block's height below which a speed is rounding.
+/// Share of `√(g L)`, `L` the size of the column, below which a speed is rounding.
 pub const SPEED_SHARE: f64 = 1e-9;
 
 /// Share of that speed below which a slide has no direction.
@@ -95,8 +95,8 @@ pub fn is_closing(resolution: Resolution, now: &Configuration, interface: usize)
     now.relative_angle(interface).abs() <= resolution.angle && rate < -resolution.rate
 }
 
-/// The side on which a tilted block above the lowest one stands, if it stands. Where its corner meets the corner of the other side of the block below, one of
-/// the two is on the end of the other block's face: the one on this side. `None` for faces that lie on each other, and on the ground.
+/// Side to which the upper block of an interface above the ground is tilted; `None` on the ground and where the faces lie on each other. Where opposite corners of
+/// the two blocks meet, the corner of this side is the one that stands on the other block's face.
 pub fn leaning_side(resolution: Resolution, now: &Configuration, interface: usize) -> Option<Sign> {
     let angle = now.relative_angle(interface);
     let is_tilted = interface > 0 && angle.abs() > resolution.lowest_hop.max(resolution.angle);

@@ -69,10 +69,11 @@ impl PendingTransition<'_> {
             }
         }
         held.joints = PerBlock::from_slice(joints);
-        let none = vec![0.0; joints.len()];
+        // Slides keep their momentum, and of the forces, which have moments about centres, none is read.
+        let (frictionless, centres) = (vec![0.0; joints.len()], vec![0.0; joints.len()]);
         loop {
             let chain = Chain::new(self.column(), &held);
-            let Some(answer) = Rows::new(&chain, &held.joints, &none, &none).impact(&before) else { return };
+            let Some(answer) = Rows::new(&chain, &held.joints, &frictionless, &centres).impact(&before) else { return };
             let driven_in = |interface| self.driven_in(&chain, &held, [&rates, &answer.motion], interface);
             let turned_back = |interface| self.turned_back(&held, &answer.motion, interface);
             let changing =

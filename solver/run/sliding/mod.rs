@@ -1,4 +1,4 @@
-//! Runs in which blocks slide and fly (docs/book/model.md, section 18). Like a rocking run, such a run is a fold from event to event, here over
+//! Runs in which blocks slide and fly (docs/book/model.md, sections 15 to 18). Like a rocking run, such a run is a fold from event to event, here over
 //! the states of `friction/`. `x⁻` is the state before an event, `x⁺` the state after it.
 //!
 //! ```text
@@ -81,7 +81,10 @@ pub(super) fn run(
         StickingSpan::Part(part) => {
             let (until, ended) = end_of_part(&mut recorder, &at, *part);
             at = until;
-            transition(problem, friction, &at, ended, 0.0)
+            match ended {
+                SlidingEnded::Over(stop) => return Ok(recorder.finish(at, stop, mover.work)),
+                SlidingEnded::Event(cause) => transition(problem, friction, &at, cause, 0.0),
+            }
         }
     };
     let mut simultaneous = SimultaneousEvents::default();
@@ -107,11 +110,12 @@ pub(super) fn run(
             }
         };
         report(progress, until.t)?;
-        if let SlidingEnded::Over(stop) = ended {
-            return Ok(recorder.finish(until, stop, mover.work));
-        }
+        let cause = match ended {
+            SlidingEnded::Over(stop) => return Ok(recorder.finish(until, stop, mover.work)),
+            SlidingEnded::Event(cause) => cause,
+        };
         let lookahead = simultaneous.lookahead(&until, least_hop(problem, &until));
-        next = transition(problem, friction, &until, ended, lookahead);
+        next = transition(problem, friction, &until, cause, lookahead);
         at = until;
     }
 }

@@ -5,7 +5,7 @@ use super::explicit_steps::ExplicitSteps;
 use super::recorder::{SlidingRecorder, Snapshots};
 use super::series_steps::SeriesSteps;
 use super::smooth::{Smooth, Snapshot};
-use super::state::{RunEnd, SlidingEnded, SlidingState};
+use super::state::{Cause, RunEnd, SlidingEnded, SlidingState};
 use super::step::Step;
 use super::steps::{StepStart, Steps};
 use crate::column::Column;
@@ -75,7 +75,7 @@ impl SegmentTime {
             }
             self.segment += 1;
             if problem.ground[self.segment].jumps {
-                return Some(SlidingEnded::Jump);
+                return Some(SlidingEnded::Event(Cause::Jump));
             }
         }
     }
@@ -145,7 +145,7 @@ impl<'p> Mover<'p> {
             recorder.rest(&column, segment, [t, until], &mut rest);
             t = until;
             if let Some((_, guard)) = start {
-                break SlidingEnded::Guard(guard);
+                break SlidingEnded::at(guard);
             }
             if segment + 1 == ground.len() {
                 break SlidingEnded::Over(RunEnd::AtRest);
@@ -154,7 +154,7 @@ impl<'p> Mover<'p> {
             report_segment(progress, segment, t)?;
             let starts = || start_from_rest::starts_at_jump(&column, &self.friction.fixed, &ground[segment], t);
             if ground[segment].jumps && starts() {
-                break SlidingEnded::Jump;
+                break SlidingEnded::Event(Cause::Jump);
             }
         };
         Ok((SlidingState { t, segment, configuration: from.configuration.clone() }, ended))

@@ -69,7 +69,7 @@ impl<'p> Steps<'p> for SeriesSteps<'p> {
         let is_positive = begun.map(|()| series.is_positive());
         // Rounding puts the pole of these forces at another instant than that of the rows, on which guards are refined: a step may begin beyond it.
         if is_positive.is_none() || is_positive != *smooth.is_positive.get_or_init(|| is_positive) {
-            return Ok(ControlFlow::Break(SlidingEnded::Jam));
+            return Ok(ControlFlow::Break(SlidingEnded::at(Guard::Jam)));
         }
         let (tolerance, size) = (self.problem.tolerance, smooth.column.size());
         let limits = StepLimits { tolerance, ground: &ground, size, speed: (size * smooth.gravity).sqrt() };

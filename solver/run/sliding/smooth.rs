@@ -5,6 +5,7 @@ use crate::column::Column;
 use crate::friction::chain::{Chain, Rates};
 use crate::friction::contact_problem::{Coefficients, centre};
 use crate::friction::generated::Generated;
+use crate::friction::guards::Guard;
 use crate::friction::joint::Configuration;
 use crate::friction::rows::{Answer, Coordinate, Rows, coordinates, with_accelerations};
 use crate::friction::search::acceleration_scale;
@@ -159,7 +160,7 @@ impl<'p> Smooth<'p> {
         let most = FACTOR_WITHOUT_STEP * acceleration_scale(column, &snapshot.configuration, ground);
         let mut contacts = self.answer(t, &mut snapshot).contacts.iter().enumerate();
         if contacts.any(|(interface, own)| own.normal.abs() > most * column.mass_above(interface)) {
-            return Ok(SlidingEnded::Jam);
+            return Ok(SlidingEnded::at(Guard::Jam));
         }
         let mode = format!("{} with friction", self.base.pattern());
         Err(SolveError::StepTooSmall { time: t, step, mode })

@@ -23,16 +23,21 @@ pub struct SlidingState {
 /// Why a stretch of a run ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SlidingEnded {
+    /// States change.
+    Event(Cause),
+    /// The run is over.
+    Over(RunEnd),
+}
+
+/// Why states change.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cause {
     /// A guard, a condition of a contact or a block, fell to zero.
     Guard(Guard),
     /// The ground's acceleration jumped.
     Jump,
-    /// The rows become singular, or forces grow without bound.
-    Jam,
     /// What follows is beyond the limits of a run without sliding. Nothing has happened yet.
     Limits,
-    /// The run is over.
-    Over(RunEnd),
 }
 
 impl SlidingEnded {
@@ -40,18 +45,17 @@ impl SlidingEnded {
     pub fn at(guard: Guard) -> SlidingEnded {
         match guard {
             Guard::Overturn(block) => SlidingEnded::Over(RunEnd::Overturned(block)),
-            Guard::Jam => SlidingEnded::Jam,
-            guard => SlidingEnded::Guard(guard),
+            guard => SlidingEnded::Event(Cause::Guard(guard)),
         }
     }
 
-    /// The end of a stretch without sliding, at which these interfaces close.
+    /// The event at the end of a stretch without sliding, at which these interfaces close.
     pub fn without_sliding(ended: Ended, closing: &[usize]) -> SlidingEnded {
-        match (ended, closing) {
-            (Ended::Closing, [interface, ..]) => SlidingEnded::Guard(Guard::Close(*interface)),
-            (Ended::Opening(interface, side), _) => SlidingEnded::Guard(Guard::Tip(interface, side.sign())),
-            (Ended::Closing | Ended::Jump | Ended::Over(_), _) => SlidingEnded::Jump,
-        }
+        SlidingEnded::Event(match (ended, closing) {
+            (Ended::Closing, [interface, ..]) => Cause::Guard(Guard::Close(*interface)),
+            (Ended::Opening(interface, side), _) => Cause::Guard(Guard::Tip(interface, side.sign())),
+            (Ended::Closing | Ended::Jump | Ended::Over(_), _) => Cause::Jump,
+        })
     }
 }
 

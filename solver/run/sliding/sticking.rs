@@ -2,7 +2,7 @@
 //!
 //! A run whose friction is never used up is one such part, and equals the run without friction to the last bit.
 
-use super::state::{RunEnd, SlidingEnded, SlidingState};
+use super::state::{Cause, RunEnd, SlidingEnded, SlidingState};
 use crate::column::Column;
 use crate::friction::contact_problem::Coefficients;
 use crate::friction::joint::Configuration;
@@ -108,7 +108,7 @@ impl<'p> Sticking<'p> {
         start.contact.released = (0..joints.len()).filter(is_new).map(|i| (i, start.pattern.0[i])).collect();
         let mut modes = std::mem::take(&mut self.modes);
         modes.prepare(&self.scene, self.problem.skips);
-        modes.after_slides(self.scene.column.slides() != self.problem.scene.column.slides());
+        modes.set_have_slid(self.scene.column.slides() != self.problem.scene.column.slides());
         let folded = self.fold(&mut modes, Some(start), rows, progress);
         self.modes = modes;
         Ok(match folded? {
@@ -148,7 +148,7 @@ impl<'p> Sticking<'p> {
                 (last, SlidingEnded::Over(end), end.status())
             }
             Leaving::Beyond(Exceeded::Start) => return Ok(StickingSpan::Nowhere),
-            Leaving::Beyond(Exceeded::Phase(last)) => (last, SlidingEnded::Limits, StopReason::EndOfTime),
+            Leaving::Beyond(Exceeded::Phase(last)) => (last, SlidingEnded::Event(Cause::Limits), StopReason::EndOfTime),
             Leaving::Beyond(Exceeded::Event(last, why, closing)) => {
                 (last, SlidingEnded::without_sliding(why, &closing), StopReason::EndOfTime)
             }

@@ -1,7 +1,7 @@
 //! Transitions: from `x⁻` at the end of a stretch to `x⁺`, by the laws of contact with friction.
 
 use super::contacts::{Resolution, touching};
-use super::state::{RunEnd, SlidingEnded, SlidingState};
+use super::state::{Cause, RunEnd, SlidingState};
 use crate::column::Column;
 use crate::friction::contact_problem::{Coefficients, Question, Touch};
 use crate::friction::guards::Guard;
@@ -48,15 +48,12 @@ pub fn transition(
     problem: &Problem,
     friction: &Coefficients,
     before: &SlidingState,
-    ended: SlidingEnded,
+    cause: Cause,
     lookahead: f64,
 ) -> SlidingTransition {
     let mut pending = PendingTransition::new(problem, friction, before, lookahead);
-    let guard = match ended {
-        SlidingEnded::Guard(guard) => guard,
-        SlidingEnded::Jam => Guard::Jam,
-        SlidingEnded::Jump | SlidingEnded::Limits => return pending.decided(EventKind::Jump, None),
-        SlidingEnded::Over(end) => return pending.end(end),
+    let Cause::Guard(guard) = cause else {
+        return pending.decided(EventKind::Jump, None);
     };
     let (kind, hint) = match guard {
         Guard::Jam => {
@@ -202,7 +199,7 @@ impl<'p> PendingTransition<'p> {
                     self.adopt(&joints);
                     // The jump of velocities of a jam is noted by itself.
                     let has_jammed = self.changes.len() > noted;
-                    self.name(if has_jammed { EventKind::Impact } else { kind }, &before);
+                    self.note_event(if has_jammed { EventKind::Impact } else { kind }, &before);
                 }
                 Err(stop) => self.stop = Some(stop),
             }
@@ -266,8 +263,8 @@ impl<'p> PendingTransition<'p> {
         Ok(self.search(&self.touching()).joints_an_instant_later(&solution))
     }
 
-    /// Admissible states other than those before a guard's zero. With less kinetic than static friction, slides are admissible that need not begin: where
-    /// others than the guard names would begin, and its own state is admissible at the zero by itself, that holds.
+    /// Admissible states other than those `before` a guard's zero. With less kinetic than static friction, slides that no guard has named may begin in them.
+    /// If they do, and the state that the guard named is admissible by itself, that state holds.
     fn other_than(&self, before: &Configuration, touch: &[Touch], hint: Option<(usize, Joint)>) -> Option<Solution> {
         let search = self.search(touch);
         let other = search.solve_otherwise(&before.joints)?;
@@ -312,7 +309,7 @@ impl<'p> PendingTransition<'p> {
     }
 
     /// Notes the event that leads to the present states. Its kind follows from its cause and the first interface that changes.
-    fn name(&mut self, kind: EventKind, before: &Configuration) {
+    fn note_event(&mut self, kind: EventKind, before: &Configuration) {
         let after = &self.now.joints;
         let changed: Vec<usize> = (0..after.len()).filter(|&i| before.joints[i] != after[i]).collect();
         if matches!(kind, EventKind::Impact | EventKind::Landing) {

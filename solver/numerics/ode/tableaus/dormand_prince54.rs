@@ -1,5 +1,4 @@
-//! Dormand & Prince's pair of order 5(4) with dense output of order 4; choose it for comparison. Under records, one step per sample
-//! is right to 1e-10 at any tolerance.
+//! Dormand & Prince's pair of order 5(4) with dense output of order 4; choose it for comparison.
 //!
 //! Coefficients: Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, table II.5.2 and section II.6.
 
