@@ -79,6 +79,20 @@ pub enum EventKind {
     Collapsed,
 }
 
+impl Event {
+    /// The interfaces that caused the event, from 1: those of `interfaces`, or that of `interface`, or none.
+    pub fn causes(&self) -> &[usize] {
+        if self.interfaces.is_empty() { self.interface.as_slice() } else { &self.interfaces }
+    }
+
+    /// The fields `interface` and `interfaces` of an event that these interfaces cause, counted from zero, the lowest first.
+    #[inline(always)]
+    pub(crate) fn caused_by(interfaces: &[usize]) -> (Option<usize>, PerBlock<usize>) {
+        let numbers = interfaces.iter().map(|interface| interface + 1);
+        (numbers.clone().next(), if interfaces.len() > 1 { numbers.collect() } else { PerBlock::new() })
+    }
+}
+
 impl EventKind {
     /// Whether blocks struck each other: an impact of an interface that closed, or a landing after a flight.
     pub fn is_impact(self) -> bool {

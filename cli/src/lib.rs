@@ -4,6 +4,7 @@
 
 mod arguments;
 mod commands;
+mod ending;
 mod error;
 mod files;
 mod ground_in_words;

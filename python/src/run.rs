@@ -196,9 +196,9 @@ impl Response {
         let interface = |event: &Event| event.interface.and_then(|number| i64::try_from(number).ok());
         columns
             .set_item("interface", PyArray1::from_iter(py, events.iter().map(|event| interface(event).unwrap_or(0))))?;
-        let all = |event: &Event| match (&event.interfaces[..], event.interface) {
-            ([], only) => only.map(|number| number.to_string()),
-            (several, _) => Some(several.iter().map(usize::to_string).collect::<Vec<_>>().join(" ")),
+        let all = |event: &Event| match event.causes() {
+            [] => None,
+            causes => Some(causes.iter().map(usize::to_string).collect::<Vec<_>>().join(" ")),
         };
         columns.set_item("interfaces", events.iter().map(all).collect::<Vec<_>>())?;
         columns.set_item("before", events.iter().map(|event| event.before.to_string()).collect::<Vec<_>>())?;

@@ -351,7 +351,7 @@ fn read(
 fn event(size: impl Size, before: &State, transition: &Transition, after: &State) -> Event {
     let all = |values: &[f64]| PerBlock::from_slice(&values[..size.blocks()]);
     let states = |pattern: &Pattern| Pattern::from_states(&pattern.0[..size.blocks()]);
-    let numbers = transition.interfaces.iter().map(|interface| interface + 1);
+    let (interface, interfaces) = Event::caused_by(&transition.interfaces);
     // Without an impact, rates change by snapping only: the event shows the rates after it on both sides.
     let strikes = !transition.decision.impulses.is_empty();
     let impulses =
@@ -359,8 +359,8 @@ fn event(size: impl Size, before: &State, transition: &Transition, after: &State
     Event {
         t: after.t,
         kind: transition.kind,
-        interface: numbers.clone().next(),
-        interfaces: if numbers.len() > 1 { numbers.collect() } else { PerBlock::new() },
+        interface,
+        interfaces,
         mode_before: ModeName::of(&before.pattern),
         mode: ModeName::of(&after.pattern),
         mirrored: after.pattern.is_mirrored(),

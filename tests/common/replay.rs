@@ -144,9 +144,7 @@ fn phase(
         found.state.lower(-(own - recorded).abs(), event.t);
     }
     if event.kind == EventKind::Impact {
-        let closing =
-            if event.interfaces.is_empty() { event.interface.into_iter().collect() } else { event.interfaces.clone() };
-        for &interface in &closing {
+        for &interface in event.causes() {
             let below = if interface == 1 { 0.0 } else { theta[interface - 2] };
             found.closing.lower(-(theta[interface - 1] - below).abs(), event.t);
         }

@@ -3,12 +3,12 @@
 use crate::arguments::{Dynamics, Picture, Run};
 use crate::commands::trust::Followed;
 use crate::commands::{inputs, plot, report};
+use crate::ending::Ending;
 use crate::error::Failure;
 use crate::number::{counted, fixed};
 use crate::output;
 use crate::plot::{NAMES, Paper};
 use crate::progress::Progress;
-use crate::report::still_moves;
 use crate::terminal::{json_text, print, warn};
 use crate::text::{printable, shown};
 use rocking::Fate;
@@ -136,38 +136,34 @@ fn named(scene: &Scene, block: usize) -> String {
 /// How a run ends, in the words of the column `outcome` of tables and summaries.
 fn end_of_run(scene: &Scene, response: &Response) -> String {
     let fate = Fate::of(response).name().replace('-', " ");
-    let t = response.t_final;
-    match response.status {
-        StopReason::Overturned => {
+    let (t, t_end) = (response.t_final, scene.options.t_end);
+    let overturn_angle = scene.options.overturn_angle;
+    match Ending::of(response, &scene.column, overturn_angle) {
+        Ending::Overturned { is_below_balance } => {
             let block = response.overturned_block.map_or(String::new(), |block| format!(" ({})", named(scene, block)));
-            let early = match response.ends_below_balance(&scene.column, scene.options.overturn_angle) {
-                true => {
-                    format!(": reaches solver.overturn_angle = {} rad, below its balance", scene.options.overturn_angle)
-                }
+            let early = match is_below_balance {
+                true => format!(": reaches solver.overturn_angle = {overturn_angle} rad, below its balance"),
                 false => String::new(),
             };
             format!("{fate} at t = {t:.4} s{block}{early}")
         }
-        StopReason::Falls => format!("{fate}, certain from t = {t:.4} s on"),
-        _ if response.may_overturn => format!(
-            "{fate}; not overturned up to t = {} s, where the run ends and the column may be falling",
-            scene.options.t_end
-        ),
-        StopReason::AtRest | StopReason::EndOfTime if response.cuts_ground_motion() => format!(
-            "{fate}; not overturned up to t = {} s, where the run ends and the ground still moves",
-            scene.options.t_end
-        ),
-        StopReason::AtRest if response.events.is_empty() => format!("{fate}, stands at rest"),
-        StopReason::AtRest => format!("{fate} and stands, at rest from t = {t:.4} s on"),
-        StopReason::Collapsed => format!(
+        Ending::CertainToFall => format!("{fate}, certain from t = {t:.4} s on"),
+        Ending::Collapsed => format!(
             "{fate} at t = {t:.4} s ({} lost its support)",
             response.collapsed_block.map_or("a block".into(), |block| named(scene, block))
         ),
-        StopReason::Undetermined => format!("{fate} from t = {t:.4} s on: no motion follows from the laws of contact"),
-        _ => match still_moves(response) {
-            Some(moves) => format!("{fate} and stands at t = {t:.4} s, still {moves}"),
-            None => format!("{fate} and stands at t = {t:.4} s"),
-        },
+        Ending::Undetermined => format!("{fate} from t = {t:.4} s on: no motion follows from the laws of contact"),
+        Ending::MayBeFalling => {
+            format!("{fate}; not overturned up to t = {t_end} s, where the run ends and the column may be falling")
+        }
+        Ending::GroundStillMoves => {
+            format!("{fate}; not overturned up to t = {t_end} s, where the run ends and the ground still moves")
+        }
+        Ending::NeverStarted => format!("{fate}, stands at rest"),
+        Ending::AtRest => format!("{fate} and stands, at rest from t = {t:.4} s on"),
+        Ending::CertainToStand => format!("{fate} and stands, certain from t = {t:.4} s on"),
+        Ending::Standing { still: Some(moves) } => format!("{fate} and stands at t = {t:.4} s, still {moves}"),
+        Ending::Standing { still: None } => format!("{fate} and stands at t = {t:.4} s"),
     }
 }
 

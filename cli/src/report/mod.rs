@@ -16,8 +16,6 @@ mod frames;
 mod html;
 mod number;
 
-pub use outcome::still_moves;
-
 use crate::plot;
 use crate::text::escape;
 use rocking::run_folder::Results;

@@ -1,5 +1,6 @@
 //! Outcome of a run: in a sentence, then key figures, peaks, impacts, time in each mode.
 
+use crate::ending::Ending;
 use crate::number::counted;
 use crate::plot::modes::{called, sketch};
 use crate::report::number::{degrees, percent, significant};
@@ -9,7 +10,7 @@ use crate::text::escape;
 use rocking::column::Shape;
 use rocking::pattern::Pattern;
 use rocking::run_folder::Results;
-use rocking::{Event, EventKind, ModeName, Response, SlidingReport, StopReason};
+use rocking::{Event, EventKind, ModeName, SlidingReport, StopReason};
 use std::fmt::Write as _;
 
 /// HTML of the outcome: the sentence with a sign, what is known of its trust, and where the blocks stayed.
@@ -35,86 +36,71 @@ fn end_of_run(results: &Results) -> (&'static str, String) {
     let response = &results.response;
     let t = significant(response.t_final, 4);
     let end = significant(results.options.t_end, 4);
-    match response.status {
-        StopReason::Overturned => {
+    let overturn_angle = results.options.overturn_angle;
+    match Ending::of(response, &results.column, overturn_angle) {
+        Ending::Overturned { is_below_balance } => {
             let first = response.overturned_block.map_or(String::new(), |block| match results.column.len() {
                 1 => String::new(),
                 _ => format!(", block {} first", escape(&results.block_name(block - 1))),
             });
-            let angle = results.options.overturn_angle;
-            let sentence = match response.ends_below_balance(&results.column, angle) {
+            let sentence = match is_below_balance {
                 true => format!(
                     "The column <strong>reaches solver.overturn_angle</strong> = {} rad, below its balance, at t&nbsp;=&nbsp;{t}&nbsp;s{first}.",
-                    significant(angle, 4)
+                    significant(overturn_angle, 4)
                 ),
                 false => format!("The column <strong>overturns</strong> at t&nbsp;=&nbsp;{t}&nbsp;s{first}."),
             };
             ("overturned", sentence)
         }
-        _ if response.may_overturn => (
-            "rocking",
-            format!(
-                "The column has <strong>not overturned</strong> up to t&nbsp;=&nbsp;{end}&nbsp;s, where the run ends, but it is past its balance \
-                 or has the energy to get there: whether it stands is open."
-            ),
-        ),
-        StopReason::AtRest | StopReason::EndOfTime if response.cuts_ground_motion() => (
-            "rocking",
-            format!(
-                "The column has <strong>not overturned</strong> up to t&nbsp;=&nbsp;{end}&nbsp;s, where the run ends; the ground still \
-                 moves then, and what it does later is not known."
-            ),
-        ),
-        StopReason::AtRest if results.response.events.is_empty() && response.t_final == 0.0 => {
-            ("stands", format!("The column <strong>stands</strong>: nothing starts it in {end}&nbsp;s."))
-        }
-        StopReason::AtRest => {
-            ("stands", format!("The column <strong>stands</strong>: it comes to rest at t&nbsp;=&nbsp;{t}&nbsp;s."))
-        }
-        StopReason::Stands => {
-            ("stands", "The column <strong>stands</strong>: it has too little energy left to overturn.".to_string())
-        }
-        StopReason::Falls => {
+        Ending::CertainToFall => {
             ("overturned", "The column <strong>overturns</strong>: nothing can stop it any more.".to_string())
         }
-        StopReason::Collapsed => {
+        Ending::Collapsed => {
             let who = match response.collapsed_block {
                 Some(block) => format!("block {} loses its support", escape(&results.block_name(block - 1))),
                 None => "a block loses its support".into(),
             };
             ("overturned", format!("The column <strong>collapses</strong> at t&nbsp;=&nbsp;{t}&nbsp;s: {who}."))
         }
-        StopReason::Undetermined => (
+        Ending::Undetermined => (
             "undetermined",
             format!(
                 "The run <strong>ends without an outcome</strong> at t&nbsp;=&nbsp;{t}&nbsp;s: no motion follows from the laws of \
                  contact with friction there."
             ),
         ),
-        _ => match still_moves(response) {
-            Some(moves) => {
-                let words = format!(
-                    "The column <strong>stands</strong>, but is still {moves} at the end of the run, t&nbsp;=&nbsp;{end}&nbsp;s."
-                );
-                ("rocking", words)
-            }
-            None => {
-                let words =
-                    format!("The column <strong>stands</strong> at the end of the run, t&nbsp;=&nbsp;{end}&nbsp;s.");
-                ("stands", words)
-            }
-        },
-    }
-}
-
-/// What the column of a run that stands at `t_end` does then; `None` where nothing moves any more.
-pub fn still_moves(response: &Response) -> Option<&'static str> {
-    // Patterns change at events only: rows may end long before the run.
-    let last = response.events.last().map(|event| &event.after).or(response.samples.last().map(|row| &row.pattern));
-    let is_closed = last.is_some_and(|pattern| pattern.dof() == 0);
-    match response.slides_on {
-        true => Some("sliding or flying"),
-        false => (!is_closed).then_some("rocking"),
+        Ending::MayBeFalling => (
+            "rocking",
+            format!(
+                "The column has <strong>not overturned</strong> up to t&nbsp;=&nbsp;{end}&nbsp;s, where the run ends, but it is past its balance \
+                 or has the energy to get there: whether it stands is open."
+            ),
+        ),
+        Ending::GroundStillMoves => (
+            "rocking",
+            format!(
+                "The column has <strong>not overturned</strong> up to t&nbsp;=&nbsp;{end}&nbsp;s, where the run ends; the ground still \
+                 moves then, and what it does later is not known."
+            ),
+        ),
+        Ending::NeverStarted => {
+            ("stands", format!("The column <strong>stands</strong>: nothing starts it in {end}&nbsp;s."))
+        }
+        Ending::AtRest => {
+            ("stands", format!("The column <strong>stands</strong>: it comes to rest at t&nbsp;=&nbsp;{t}&nbsp;s."))
+        }
+        Ending::CertainToStand => {
+            ("stands", "The column <strong>stands</strong>: it has too little energy left to overturn.".to_string())
+        }
+        Ending::Standing { still: Some(moves) } => (
+            "rocking",
+            format!(
+                "The column <strong>stands</strong>, but is still {moves} at the end of the run, t&nbsp;=&nbsp;{end}&nbsp;s."
+            ),
+        ),
+        Ending::Standing { still: None } => {
+            ("stands", format!("The column <strong>stands</strong> at the end of the run, t&nbsp;=&nbsp;{end}&nbsp;s."))
+        }
     }
 }
 
@@ -325,10 +311,9 @@ fn bar(share: f64) -> String {
 /// Interfaces, from 0, that an event names. If it names none, those whose state changed.
 pub fn changed(event: &Event) -> Vec<usize> {
     let all = 0..event.after.0.len();
-    match (event.interfaces.is_empty(), event.interface) {
-        (false, _) => all.filter(|interface| event.interfaces.contains(&(interface + 1))).collect(),
-        (true, Some(named)) => all.filter(|interface| interface + 1 == named).collect(),
-        _ => all.filter(|&at| event.before.0[at] != event.after.0[at]).collect(),
+    match event.causes() {
+        [] => all.filter(|&at| event.before.0[at] != event.after.0[at]).collect(),
+        causes => all.filter(|interface| causes.contains(&(interface + 1))).collect(),
     }
 }
 

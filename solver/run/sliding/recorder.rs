@@ -148,12 +148,12 @@ impl<'p> SlidingRecorder<'p> {
         }
         self.impulses(impulses.as_deref().unwrap_or_default());
         let (old, new): (Pattern, Pattern) = (before.pattern(), after.pattern());
-        let numbers: Vec<usize> = interfaces.iter().map(|interface| interface + 1).collect();
+        let (interface, interfaces) = Event::caused_by(interfaces);
         let mut event = Event {
             t,
             kind: *kind,
-            interface: numbers.first().copied(),
-            interfaces: if numbers.len() > 1 { PerBlock::from_slice(&numbers) } else { PerBlock::new() },
+            interface,
+            interfaces,
             mode_before: ModeName::of(&old),
             mode: ModeName::of(&new),
             mirrored: new.is_mirrored(),
