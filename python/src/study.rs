@@ -5,8 +5,8 @@ use crate::interrupt::{in_order, on_all_threads};
 use crate::origin::Origin;
 use crate::record::{Record, intensity};
 use crate::scene::Scene;
-use crate::sweep::{per_block, range};
-use crate::table::{Column, Names, Values, into_python, whole};
+use crate::sweep::range;
+use crate::table::{self, Column, Values, into_python, words};
 use numpy::PyReadonlyArray2;
 use numpy::ndarray::ArrayView1;
 use pyo3::exceptions::PyValueError;
@@ -14,11 +14,8 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use rocking::Fate;
 use rocking::intensity::Intensity;
-use rocking::studies::{
-    self, Cells, Fragility, FragilityOptions, IdaFile, IdaOutcome, Layout, LimitState, Observation, RunError,
-};
-use rocking::sweep::{ERROR, kind_of_result};
-use rocking::trust::Degree;
+use rocking::studies::{self, Cells, Fragility, FragilityOptions, IdaField, IdaFile, Layout, LimitState, Observation};
+use rocking::sweep::kind_of_result;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -165,41 +162,19 @@ impl Ida {
     fn table<'py>(&self, py: Python<'py>, start: usize, stop: usize, threads: usize) -> PyResult<Bound<'py, PyList>> {
         let range = range(start, stop, self.ida.len())?;
         let runs = in_order(py, range, threads, |ended| self.ida.worker_observed(move |_| ended.progress()))?;
-        let scales = runs.iter().map(|run| run.scale).collect();
-        let levels = runs.iter().map(|run| run.level).collect();
-        let indices = runs.iter().map(|run| run.index as i64).collect();
-        let names = Names::of(self.ida.records().iter().map(|record| record.name.clone()));
-        let names = names.column(runs.iter().map(|run| self.ida.records()[run.record].name.as_str()));
-        let results: Vec<Result<IdaOutcome, RunError>> = runs.into_iter().map(|run| run.result).collect();
-        let found = || results.iter().map(|result| result.as_ref().ok());
-        let number = |of: fn(&IdaOutcome) -> Option<f64>| {
-            Values::Number(found().map(|found| found.and_then(of).unwrap_or(f64::NAN)).collect())
+        let column = |field: IdaField| {
+            let cells = runs.iter().map(|run| field.cell(&self.ida, run));
+            let values = match field {
+                IdaField::Index => Values::Index(runs.iter().map(|run| run.index as i64).collect()),
+                IdaField::Record => {
+                    table::values(field.kind(), self.ida.records().iter().map(|record| record.name.as_str()), cells)
+                }
+                IdaField::Result(result) => table::values(field.kind(), words(result), cells),
+                _ => table::values(field.kind(), [""; 0], cells),
+            };
+            Column::new(self.ida.heading(field), values)
         };
-        let fates = Names::of(Fate::NAMES.into_iter().chain([ERROR]));
-        let mut columns = vec![
-            Column::new("index", Values::Index(indices)),
-            Column::new("record", names),
-            Column::new("scale", Values::Number(scales)),
-            Column::new(self.ida.intensity().to_string(), Values::Number(levels)),
-            Column::new("outcome", fates.column(found().map(|found| found.map_or(ERROR, |found| found.fate.name())))),
-            Column::new("impacts", whole(found().map(|found| found.map(|found| found.impacts)))),
-            Column::new("block", whole(found().map(|found| found.and_then(|found| found.block)))),
-            Column::new("overturned_at", number(|found| found.overturned_at)),
-            Column::new("first_uplift", number(|found| found.first_uplift)),
-            Column::new("largest_gap", number(|found| Some(found.largest_gap))),
-        ];
-        let blocks = self.ida.scene().column.len();
-        columns.extend(per_block("peak", blocks, &results, |found| &found.peaks));
-        if self.ida.scene().friction.is_some() {
-            columns.extend(per_block("residual_slide", blocks, &results, |found| &found.residual_slides));
-        }
-        if self.ida.is_followed() {
-            let degrees = Names::of(Degree::NAMES);
-            let degree = |found: Option<&IdaOutcome>| found.and_then(|found| found.trust).map_or("", Degree::name);
-            columns.push(Column::new("trust", degrees.column(found().map(degree))));
-        }
-        let errors = results.iter().map(|result| result.as_ref().err().map(ToString::to_string));
-        columns.push(Column::new("error", Values::Text(errors.collect())));
+        let columns = self.ida.fields().into_iter().map(column).collect();
         into_python(py, columns)
     }
 }

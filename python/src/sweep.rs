@@ -4,14 +4,13 @@ use crate::error;
 use crate::interrupt::in_order;
 use crate::origin::Origin;
 use crate::scene::Scene;
-use crate::table::{Column, Names, Values, into_python, truth, whole};
+use crate::table::{self, Column, Names, Values, into_python, words};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::PyList;
+use rocking::Wanted;
 use rocking::scene_file::{Setting, Template};
-use rocking::sweep::{Axis, Cell, CellKind, ERROR, Field, Outcome, PointError};
-use rocking::trust::Degree;
-use rocking::{Fate, Wanted};
+use rocking::sweep::{Axis, Field, Outcome, PointError};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -110,39 +109,15 @@ impl Sweep {
 
 impl Sweep {
     fn columns(&self, range: Range<usize>, results: &[Result<Outcome, PointError>], fields: &[Field]) -> Vec<Column> {
-        let values = |field: Field| {
-            let cells = || results.iter().map(|result| field.cell(result, self.sweep.ask));
-            match (field, field.kind()) {
-                (Field::Index, _) => Values::Index(range.clone().map(|index| index as i64).collect()),
-                (Field::Axis(place), _) => {
-                    let settings = range.clone().map(|index| self.sweep.settings(index)[place]);
-                    axis_values(&self.sweep.axes[place], settings)
-                }
-                (_, CellKind::Whole) => {
-                    whole(cells().map(|cell| if let Cell::Whole(number) = cell { Some(number) } else { None }))
-                }
-                (_, CellKind::Number) => {
-                    let number = |cell| if let Cell::Number(number) = cell { number } else { f64::NAN };
-                    Values::Number(cells().map(number).collect())
-                }
-                (_, CellKind::Truth) => {
-                    truth(cells().map(|cell| if let Cell::Truth(truth) = cell { Some(truth) } else { None }))
-                }
-                (_, CellKind::Word) => {
-                    let words = match field {
-                        Field::Trust => Degree::NAMES.to_vec(),
-                        _ => Fate::NAMES.into_iter().chain([ERROR]).collect(),
-                    };
-                    Names::of(words).column(cells().map(|cell| if let Cell::Word(word) = cell { word } else { "" }))
-                }
-                (_, _) => {
-                    let text = |cell| match cell {
-                        Cell::Word(word) => Some(word.to_string()),
-                        Cell::Error(error) => Some(error.to_string()),
-                        _ => None,
-                    };
-                    Values::Text(cells().map(text).collect())
-                }
+        let values = |field: Field| match field {
+            Field::Index => Values::Index(range.clone().map(|index| index as i64).collect()),
+            Field::Axis(place) => {
+                let settings = range.clone().map(|index| self.sweep.settings(index)[place]);
+                axis_values(&self.sweep.axes[place], settings)
+            }
+            _ => {
+                let cells = results.iter().map(|result| field.cell(result, self.sweep.ask));
+                table::values(field.kind(), words(field), cells)
             }
         };
         fields.iter().map(|field| Column::new(self.sweep.heading(*field), values(*field))).collect()
@@ -160,19 +135,4 @@ fn axis_values<'s>(axis: &Axis, settings: impl Iterator<Item = &'s Setting>) -> 
     }
     let names: Vec<String> = settings.map(Setting::to_string).collect();
     Names::of(axis.values.iter().map(Setting::to_string)).column(names.iter().map(String::as_str))
-}
-
-/// Columns `name_1, name_2, ..` of a list that each result has. Entries beyond the end of the list, and of failed runs, are blank.
-pub fn per_block<T, E>(
-    name: &str,
-    blocks: usize,
-    results: &[Result<T, E>],
-    list: impl Fn(&T) -> &Vec<f64>,
-) -> Vec<Column> {
-    let of_block = |block: usize| {
-        let value = |result: &Result<T, E>| result.as_ref().ok().and_then(|found| list(found).get(block).copied());
-        let values = results.iter().map(|result| value(result).unwrap_or(f64::NAN)).collect();
-        Column::new(format!("{name}_{}", block + 1), Values::Number(values))
-    };
-    (0..blocks).map(of_block).collect()
 }

@@ -3,7 +3,11 @@
 use numpy::IntoPyArray;
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
+use rocking::Fate;
+use rocking::sweep::{Cell, CellKind, ERROR, Field};
+use rocking::trust::Degree;
 use std::collections::HashMap;
+use std::fmt::Display;
 
 /// A column of a table.
 pub enum Values {
@@ -54,6 +58,40 @@ impl Column {
 pub fn into_python(py: Python<'_>, columns: Vec<Column>) -> PyResult<Bound<'_, PyList>> {
     let columns = columns.into_iter().map(|column| column.into_python(py)).collect::<PyResult<Vec<_>>>()?;
     PyList::new(py, columns)
+}
+
+/// The words of a column of results.
+pub fn words(field: Field) -> Vec<&'static str> {
+    match field {
+        Field::Trust => Degree::NAMES.to_vec(),
+        _ => Fate::NAMES.into_iter().chain([ERROR]).collect(),
+    }
+}
+
+/// The column of cells of one kind; `words` are those of a column of words, in any order.
+pub fn values<'r, E: Display + 'r>(
+    kind: CellKind,
+    words: impl IntoIterator<Item = impl Into<String>>,
+    cells: impl Iterator<Item = Cell<'r, E>>,
+) -> Values {
+    match kind {
+        CellKind::Whole => whole(cells.map(|cell| if let Cell::Whole(number) = cell { Some(number) } else { None })),
+        CellKind::Number => {
+            Values::Number(cells.map(|cell| if let Cell::Number(number) = cell { number } else { f64::NAN }).collect())
+        }
+        CellKind::Truth => truth(cells.map(|cell| if let Cell::Truth(truth) = cell { Some(truth) } else { None })),
+        CellKind::Word => {
+            Names::of(words).column(cells.map(|cell| if let Cell::Word(word) = cell { word } else { "" }))
+        }
+        _ => {
+            let text = |cell: Cell<'_, E>| match cell {
+                Cell::Word(word) => Some(word.to_string()),
+                Cell::Error(error) => Some(error.to_string()),
+                _ => None,
+            };
+            Values::Text(cells.map(text).collect())
+        }
+    }
 }
 
 /// Whole numbers with blanks.

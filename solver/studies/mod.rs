@@ -1,13 +1,15 @@
 //! Studies: many runs, and what an engineer concludes from them.
 //!
 //! ```text
-//! scene, records, levels ──> ida.rs ──> ida_runs.rs ──> observation.rs ──> stripes.rs      fractiles of the response per level
+//! scene, records, levels ──> ida.rs ──> ida_runs.rs ──> columns.rs         a row of the table of runs
+//!                                                   └─> observation.rs ──> stripes.rs      fractiles of the response per level
 //!                                                                      └─> fragility.rs    probability of a limit state
 //!                                                                          probit.rs       its lognormal by maximum likelihood
 //! ```
 //!
 //! Rocking is not monotonic: a column that overturns at a level may stand at a higher one. No level is therefore left out or bisected.
 
+mod columns;
 mod file;
 mod fragility;
 mod gap;
@@ -19,6 +21,7 @@ pub mod probit;
 mod proportion;
 mod stripes;
 
+pub use columns::IdaField;
 pub use file::IdaFile;
 pub use fragility::{
     Bands, Count, Fit, Fragility, FragilityOptions, Goodness, Layout, MOST_REPLICATES, OptionOutOfRange,

@@ -67,10 +67,10 @@ pub enum CellKind {
     Text,
 }
 
-/// The content of a cell.
+/// The content of a cell of a table of runs that fail with an error `E`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum Cell<'r> {
+pub enum Cell<'r, E = PointError> {
     /// Nothing to show: the run failed or does not have the quantity, or the cell belongs to the point.
     Blank,
     /// A whole number.
@@ -82,8 +82,12 @@ pub enum Cell<'r> {
     /// A word, or a text.
     Word(&'r str),
     /// Why there is no result.
-    Error(&'r PointError),
+    Error(&'r E),
 }
+
+/// Headings of the columns of results that a study has beside those of a sweep.
+pub(crate) const FIRST_UPLIFT: &str = "first_uplift";
+pub(crate) const LARGEST_GAP: &str = "largest_gap";
 
 /// Columns of results, beside those of each block.
 const RESULTS: [Field; 13] = [
@@ -102,14 +106,11 @@ const RESULTS: [Field; 13] = [
     Field::Error,
 ];
 
-/// Columns of results that a study has beside those of a sweep.
-const RESULTS_OF_STUDIES: [&str; 2] = ["first_uplift", "largest_gap"];
-
 /// What the cells of a column of the table of a sweep or a study hold, by its name, if these are results. All other columns say what was run: number, record,
 /// level, axes.
 pub fn kind_of_result(column: &str) -> Option<CellKind> {
     let is_of_block = |prefix: &str| column.strip_prefix(prefix).is_some_and(|number| number.parse::<usize>().is_ok());
-    if RESULTS_OF_STUDIES.contains(&column) || is_of_block(PEAK) || is_of_block(RESIDUAL_SLIDE) {
+    if [FIRST_UPLIFT, LARGEST_GAP].contains(&column) || is_of_block(PEAK) || is_of_block(RESIDUAL_SLIDE) {
         return Some(CellKind::Number);
     }
     RESULTS.iter().find(|field| field.word() == column).map(|field| field.kind())
@@ -120,6 +121,15 @@ const PEAK: &str = "peak_";
 const RESIDUAL_SLIDE: &str = "residual_slide_";
 
 impl Field {
+    /// The heading; nothing of an axis, whose heading is its key.
+    pub(crate) fn heading(self) -> String {
+        match self {
+            Field::Peak(block) => format!("{PEAK}{}", block + 1),
+            Field::ResidualSlide(interface) => format!("{RESIDUAL_SLIDE}{}", interface + 1),
+            field => field.word().into(),
+        }
+    }
+
     /// The heading; of an axis or a block, nothing.
     fn word(self) -> &'static str {
         match self {
@@ -224,9 +234,7 @@ impl Sweep {
     pub fn heading(&self, field: Field) -> String {
         match field {
             Field::Axis(place) => self.axes[place].key.clone(),
-            Field::Peak(block) => format!("{PEAK}{}", block + 1),
-            Field::ResidualSlide(interface) => format!("{RESIDUAL_SLIDE}{}", interface + 1),
-            field => field.word().into(),
+            field => field.heading(),
         }
     }
 

@@ -23,6 +23,7 @@ mod sampling;
 
 pub use axes::{Axis, Combine, is_of_records};
 pub use columns::{Cell, CellKind, ERROR, Field, kind_of_result};
+pub(crate) use columns::{FIRST_UPLIFT, LARGEST_GAP};
 pub use outcome::{Ask, Needs, Outcome};
 pub use points::Sweep;
 pub use rows::{PointError, Row};

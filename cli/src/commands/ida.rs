@@ -6,12 +6,12 @@ use crate::arguments;
 use crate::commands::fragility::{self, Conclusions};
 use crate::commands::plot::write;
 use crate::commands::spectrum::beside;
-use crate::commands::sweep::{OUTCOME, TIME, TableDigest, Tally, already_there, likely_in_words, threads};
+use crate::commands::sweep::{OUTCOME, TableDigest, Tally, already_there, likely_in_words, threads};
 use crate::error::{Failure, at};
 use crate::output;
 use crate::plot::{self, Figure, Paper};
 use crate::progress::Progress;
-use crate::table::column::{Column, FAILURE, Kind, Rows, TRUST, fits, has_result};
+use crate::table::column::{Column, FAILURE, Rows, fits, has_result, text};
 use crate::table::growing::Growing;
 use crate::table::runs;
 use crate::table::{Format, check_replaced, open};
@@ -21,10 +21,9 @@ use csv::StringRecord;
 use rocking::Fate;
 use rocking::intensity::Intensity;
 use rocking::studies::{
-    DEFAULT_STATES, FRACTILES, Fit, FragilityOptions, Ida, IdaFile, IdaRun, Layout, LimitState, Stripe, stripes,
+    DEFAULT_STATES, FRACTILES, Fit, FragilityOptions, Ida, IdaField, IdaFile, Layout, LimitState, Stripe, stripes,
 };
-use rocking::sweep::ERROR;
-use rocking::trust::Degree;
+use rocking::sweep::Field;
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -108,10 +107,14 @@ fn filled(
     let is_row = |row: &StringRecord, index: usize| is_row(ida, columns, row, index);
     let mut table = Growing::open(target, columns, digest.number(), 0..ida.len(), is_row)?;
     let resumed = table.next;
+    let fields = ida.fields();
     let bar = Progress::of_points(ida.len(), resumed, request.quiet || request.json);
     table.fill(ida.len(), threads, &bar, || {
-        let mut run = ida.worker();
-        move |index| cells(ida, &run(index), columns.len())
+        let (mut run, fields) = (ida.worker(), &fields);
+        move |index| {
+            let run = run(index);
+            fields.iter().map(|field| text(field.cell(ida, &run))).collect::<StringRecord>()
+        }
     })?;
     Ok((table, resumed))
 }
@@ -212,28 +215,15 @@ fn digest(inputs: &[PathBuf]) -> Result<TableDigest, Failure> {
 
 /// The columns of the table of a study.
 fn columns(ida: &Ida) -> Vec<Column> {
-    let mut columns = vec![
-        Column::full("index", Kind::Whole),
-        Column::full("record", Kind::Text),
-        Column::full("scale", Kind::Number),
-        Column::full(ida.intensity().to_string(), Kind::Number),
-        Column::full(OUTCOME, Kind::Text),
-        Column::sparse("impacts", Kind::Whole),
-        Column::sparse("block", Kind::Whole),
-        Column::sparse(TIME, Kind::Number),
-        Column::sparse("first_uplift", Kind::Number),
-        Column::sparse("largest_gap", Kind::Number),
-    ];
-    let blocks = 1..=ida.scene().column.len();
-    columns.extend(blocks.clone().map(|block| Column::sparse(format!("peak_{block}"), Kind::Number)));
-    if ida.scene().friction.is_some() {
-        columns.extend(blocks.map(|block| Column::sparse(format!("residual_slide_{block}"), Kind::Number)));
-    }
-    if ida.is_followed() {
-        columns.push(Column::sparse(TRUST, Kind::Text));
-    }
-    columns.push(Column::sparse("error", Kind::Text));
-    columns
+    let column = |field: IdaField| {
+        let is_full = matches!(
+            field,
+            IdaField::Index | IdaField::Record | IdaField::Scale | IdaField::Level | IdaField::Result(Field::Outcome)
+        );
+        let make = if is_full { Column::full } else { Column::sparse };
+        make(ida.heading(field), field.kind().into())
+    };
+    ida.fields().into_iter().map(column).collect()
 }
 
 /// The cells that say which run of a study it is: its number, record, scale and level.
@@ -249,33 +239,6 @@ fn is_row(ida: &Ida, columns: &[Column], row: &StringRecord, index: usize) -> bo
         |name: &str| columns.iter().zip(row).find(|(column, _)| column.name == name).map_or("", |(_, cell)| cell);
     let is_due = point(ida, index).iter().zip(row).all(|(due, cell)| due == cell);
     is_due && fits(columns, row) && has_result(cell(OUTCOME), cell(FAILURE))
-}
-
-/// A run as `columns` cells.
-fn cells(ida: &Ida, run: &IdaRun, columns: usize) -> StringRecord {
-    let number = |value: f64| format!("{value:?}");
-    let mut cells = point(ida, run.index);
-    match &run.result {
-        Ok(found) => {
-            cells.push(found.fate.name().into());
-            cells.push(found.impacts.to_string());
-            cells.push(found.block.map_or(String::new(), |block| block.to_string()));
-            cells.push(found.overturned_at.map_or(String::new(), number));
-            cells.push(found.first_uplift.map_or(String::new(), number));
-            cells.push(number(found.largest_gap));
-            cells.extend(found.peaks.iter().chain(&found.residual_slides).copied().map(number));
-            // Slides of a run that is not determined are blank; trust and error are the last columns.
-            let last = if ida.is_followed() { vec![found.trust.map_or("", Degree::name), ""] } else { vec![""] };
-            cells.resize(columns - last.len(), String::new());
-            cells.extend(last.into_iter().map(String::from));
-        }
-        Err(error) => {
-            cells.push(ERROR.into());
-            cells.resize(columns - 1, String::new());
-            cells.push(printable(&error.to_string()).into_owned());
-        }
-    }
-    cells.into()
 }
 
 /// Writes the table of stripes: counts of outcomes, and fractiles of the largest |θ|/α, `inf` where the column is lost.

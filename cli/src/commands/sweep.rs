@@ -10,7 +10,7 @@ use crate::error::Failure;
 use crate::output;
 use crate::plot::Paper;
 use crate::progress::Progress;
-use crate::table::column::{Column, FAILURE, Kind, fits, has_result};
+use crate::table::column::{Column, FAILURE, Kind, fits, has_result, text};
 use crate::table::growing::Growing;
 use crate::table::{Format, check_replaced};
 use crate::terminal::{json, print, warn_of_some};
@@ -20,7 +20,7 @@ use rocking::Fate;
 use rocking::ground::read_file;
 use rocking::run_folder::Digest;
 use rocking::scene_file::Setting;
-use rocking::sweep::{Ask, Cell, CellKind, Field, Row, Sweep};
+use rocking::sweep::{Ask, Field, Row, Sweep};
 use rocking::trust::Degree;
 use serde::Serialize;
 use std::ops::Range;
@@ -203,12 +203,9 @@ pub fn columns(sweep: &Sweep) -> Result<Vec<Column>, Failure> {
     let column = |field: Field| {
         let full = matches!(field, Field::Index | Field::Axis(_) | Field::Outcome);
         let is_number = |place: usize| sweep.axes[place].values.iter().all(|value| matches!(value, Setting::Number(_)));
-        let kind = match (field, field.kind()) {
-            (Field::Axis(place), _) if is_number(place) => Kind::Number,
-            (_, CellKind::Whole) => Kind::Whole,
-            (_, CellKind::Number) => Kind::Number,
-            (_, CellKind::Truth) => Kind::Truth,
-            (_, _) => Kind::Text,
+        let kind = match field {
+            Field::Axis(place) if is_number(place) => Kind::Number,
+            field => field.kind().into(),
         };
         let make = if full { Column::full } else { Column::sparse };
         make(sweep.heading(field), kind)
@@ -218,18 +215,10 @@ pub fn columns(sweep: &Sweep) -> Result<Vec<Column>, Failure> {
 
 /// A cell of a row as text.
 fn cell(row: &Row, field: Field, ask: Ask) -> String {
-    match (field, field.cell(&row.result, ask)) {
-        (Field::Index, _) => row.index.to_string(),
-        (Field::Axis(place), _) => match &row.settings[place] {
-            Setting::Text(text) => printable(text).into_owned(),
-            setting => setting.to_string(),
-        },
-        (_, Cell::Whole(number)) => number.to_string(),
-        (_, Cell::Number(number)) => format!("{number:?}"),
-        (_, Cell::Truth(truth)) => truth.to_string(),
-        (_, Cell::Word(word)) => word.into(),
-        (_, Cell::Error(error)) => printable(&error.to_string()).into_owned(),
-        (_, _) => String::new(),
+    match field {
+        Field::Index => row.index.to_string(),
+        Field::Axis(place) => printable(&row.settings[place].to_string()).into_owned(),
+        field => text(field.cell(&row.result, ask)),
     }
 }
 

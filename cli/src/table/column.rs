@@ -1,8 +1,10 @@
 //! Columns of the table of a sweep or a study, and its rows as text.
 
+use crate::text::printable;
 use csv::StringRecord;
 use rocking::Fate;
-use rocking::sweep::ERROR;
+use rocking::sweep::{Cell, CellKind, ERROR};
+use std::fmt::Display;
 
 /// Heading of the column of outcomes.
 pub const OUTCOME: &str = "outcome";
@@ -24,6 +26,29 @@ pub enum Kind {
     /// `true` or `false`.
     Truth,
     Text,
+}
+
+impl From<CellKind> for Kind {
+    fn from(kind: CellKind) -> Kind {
+        match kind {
+            CellKind::Whole => Kind::Whole,
+            CellKind::Number => Kind::Number,
+            CellKind::Truth => Kind::Truth,
+            _ => Kind::Text,
+        }
+    }
+}
+
+/// A cell as text.
+pub fn text<E: Display>(cell: Cell<'_, E>) -> String {
+    match cell {
+        Cell::Whole(number) => number.to_string(),
+        Cell::Number(number) => format!("{number:?}"),
+        Cell::Truth(truth) => truth.to_string(),
+        Cell::Word(word) => printable(word).into_owned(),
+        Cell::Error(error) => printable(&error.to_string()).into_owned(),
+        _ => String::new(),
+    }
 }
 
 /// A column of a table.
