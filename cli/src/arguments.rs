@@ -148,7 +148,7 @@ pub enum Command {
     Ida(Ida),
     /// Fragility curves of a table that `rocking ida` has written, or a sweep with `ask = "peaks"` or `"slides"` over records and a measure.
     ///
-    /// Writes TABLE-fragility.csv and TABLE-shares.csv beside the table; with `--where alpha=0.2`, TABLE-where-alpha=0.2-fragility.csv and so on.
+    /// Writes TABLE-fragility.csv and TABLE-shares.csv beside the table; with `--where size.alpha=0.2`, TABLE-where-size.alpha=0.2-fragility.csv and so on.
     Fragility(Fragility),
     /// Join the tables of all shards of a sweep.
     ///
