@@ -90,26 +90,35 @@ pub(super) fn document(title: &str, author: &str, columns: usize) -> String {
 /// What the sizes of blocks stand for.
 const ALIGNED: &str = "Blocks are rectangles and stand aligned; tapered and displaced blocks have the same equations with other constants.";
 
-/// How the symbols of a derivation and of its compact form are set.
-fn notation(symbols: &Symbols, compact: &Compact) -> Notation {
-    const CONSTANT: u8 = 0;
-    const MASS: u8 = 1;
-    const LENGTH: u8 = 2;
-    let mut notation = Notation::default();
-    let mut family = |symbols: &[Expr], place: Place, tex: &str| {
-        for (index, symbol) in symbols.iter().enumerate() {
-            notation.set(*symbol, place, format!("{tex}_{{{}}}", index + 1));
-        }
-    };
-    family(&symbols.theta, Place::Middle(LENGTH), "\\theta");
-    family(&symbols.omega, Place::Back, "\\dot\\theta");
-    family(&symbols.alpha, Place::Back, "\\ddot\\theta");
-    family(&symbols.pivot, Place::Middle(LENGTH), "p");
-    family(&symbols.half_height, Place::Middle(LENGTH), "h");
-    family(&symbols.mass, Place::Middle(MASS), "m");
-    family(&symbols.inertia, Place::Middle(CONSTANT), "I");
+/// Places of factors within a product: constants of a mode, masses, lengths.
+pub(super) const CONSTANT: u8 = 0;
+const MASS: u8 = 1;
+pub(super) const LENGTH: u8 = 2;
+
+/// Sets a family of symbols as a letter with their numbers, from 1.
+pub(super) fn set_family(notation: &mut Notation, symbols: &[Expr], place: Place, tex: &str) {
+    for (index, symbol) in symbols.iter().enumerate() {
+        notation.set(*symbol, place, format!("{tex}_{{{}}}", index + 1));
+    }
+}
+
+/// Sets the sizes of blocks and the motion of the ground.
+pub(super) fn set_blocks_and_ground(notation: &mut Notation, symbols: &Symbols) {
+    set_family(notation, &symbols.half_height, Place::Middle(LENGTH), "h");
+    set_family(notation, &symbols.mass, Place::Middle(MASS), "m");
+    set_family(notation, &symbols.inertia, Place::Middle(CONSTANT), "I");
     notation.set(symbols.ground_x, Place::Front, "\\ddot x_{g}");
     notation.set(symbols.gravity, Place::Front, "\\hat g");
+}
+
+/// How the symbols of a derivation and of its compact form are set.
+fn notation(symbols: &Symbols, compact: &Compact) -> Notation {
+    let mut notation = Notation::default();
+    set_family(&mut notation, &symbols.theta, Place::Middle(LENGTH), "\\theta");
+    set_family(&mut notation, &symbols.omega, Place::Back, "\\dot\\theta");
+    set_family(&mut notation, &symbols.alpha, Place::Back, "\\ddot\\theta");
+    set_family(&mut notation, &symbols.pivot, Place::Middle(LENGTH), "p");
+    set_blocks_and_ground(&mut notation, symbols);
     notation.set(symbols.steady_gravity, Place::Front, "g");
 
     let mut constant = |definition: &Definition, tex: String| {
