@@ -2,13 +2,21 @@
 //!
 //! Both hold the same: a blank cell of CSV is a null of Parquet, a number has the same bits. Parquet comes with the feature
 //! `parquet` of this crate; without it, a table whose name ends in `.parquet` is refused.
+//!
+//! ```text
+//! making.rs    a table is made: growing.rs row by row, digest.rs of which inputs, tally.rs how its runs ended, parquet.rs
+//! runs.rs      a table of a study is read; delimited.rs, tidy.rs: also one that a spreadsheet has saved
+//! ```
 
 pub mod column;
 mod delimited;
-pub mod growing;
+pub mod digest;
+mod growing;
+pub mod making;
 #[cfg(feature = "parquet")]
 pub mod parquet;
 pub mod runs;
+pub mod tally;
 mod tidy;
 
 use crate::error::Failure;

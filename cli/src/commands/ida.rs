@@ -6,14 +6,15 @@ use crate::arguments;
 use crate::commands::fragility::{self, Conclusions};
 use crate::commands::plot::write;
 use crate::commands::spectrum::beside;
-use crate::commands::sweep::{OUTCOME, TableDigest, Tally, already_there, likely_in_words, threads};
+use crate::commands::sweep::threads;
 use crate::error::{Failure, at};
 use crate::output;
 use crate::plot::{self, Figure, Paper};
-use crate::progress::Progress;
-use crate::table::column::{Column, FAILURE, Rows, fits, has_result, text};
-use crate::table::growing::Growing;
+use crate::table::column::{Column, FAILURE, OUTCOME, Rows, fits, has_result, text};
+use crate::table::digest::TableDigest;
+use crate::table::making::Making;
 use crate::table::runs;
+use crate::table::tally::likely_in_words;
 use crate::table::{Format, check_replaced, open};
 use crate::terminal::{json, print, warn, warn_of_some};
 use crate::text::{printable, shown};
@@ -45,23 +46,28 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     if !request.quiet {
         warn_of_some(&ida.warnings());
     }
-    let columns = columns(ida);
-    let (table, resumed) = filled(request, ida, digest(inputs)?, &target, &columns, &threads)?;
-    let (counted, first_error) = Tally::of(&table.part).map_err(Failure::part(&table.part))?;
-    let failure = |is_kept| {
-        let first = first_error.clone().filter(|_| counted.errors == ida.len())?;
-        Some(Failure::NoResult { table: out.clone(), points: ida.len(), first, is_kept })
+    let (columns, fields) = (columns(ida), ida.fields());
+    let making = Making {
+        out,
+        target: &target,
+        format,
+        columns: &columns,
+        points: 0..ida.len(),
+        threads: &threads,
+        is_quiet: request.quiet || request.json,
     };
-    // A table of errors takes the place of no other table.
-    if let Some(failure) = failure(true).filter(|_| target.exists()) {
-        table.discard()?;
-        return Err(failure);
-    }
+    let is_row = |row: &StringRecord, index: usize| is_row(ida, &columns, row, index);
+    let table = making.make(digest(inputs)?, is_row, || {
+        let (mut run, fields) = (ida.worker(), &fields);
+        move |index| {
+            let run = run(index);
+            fields.iter().map(|field| text(field.cell(ida, &run))).collect()
+        }
+    })?;
     // What was made of an earlier table of this name must not stand beside the new one.
     for table in &derived {
         output::remove(table, inputs)?;
     }
-    table.close(format, &columns)?;
 
     // What follows is made of the table, so that it is the same whether or not the study was interrupted.
     let runs = runs::read(out, None, &[])?.runs;
@@ -69,9 +75,9 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     output::csv(&stripes_file, |table| write_stripes(table, ida, &stripes))?;
     let measure = ida.intensity().to_string();
     let conclusions = threads.install(|| Conclusions::of(&runs, &measure, states, options));
-    let mut report = tally(ida, &stripes) + &likely_in_words(counted.likely);
+    let mut report = tally(ida, &stripes) + &likely_in_words(table.tally.likely);
     report.push_str(&conclusions.text());
-    let _ = writeln!(report, "wrote {} row(s){} to {}", ida.len(), already_there(resumed), shown(out));
+    let _ = writeln!(report, "wrote {} row(s){} to {}", table.rows, table.already_there(), shown(out));
     let _ = writeln!(report, "wrote {}", shown(&stripes_file));
     report.push_str(&conclusions.write(out)?);
     if let Some([picture, curves]) = &pictures {
@@ -85,38 +91,14 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     if request.json {
         json(&Summary {
             measure,
-            likely: counted.likely,
+            likely: table.tally.likely,
             stripes: stripes.iter().map(Line::of).collect(),
             fragility: &conclusions.fragilities,
         })?;
     } else if !request.quiet {
         print(&report)?;
     }
-    failure(false).map_or(Ok(()), Err)
-}
-
-/// The unfinished table with all its rows, and how many of them an interrupted study had left.
-fn filled(
-    request: &arguments::Ida,
-    ida: &Ida,
-    digest: TableDigest,
-    target: &Path,
-    columns: &[Column],
-    threads: &rayon::ThreadPool,
-) -> Result<(Growing, usize), Failure> {
-    let is_row = |row: &StringRecord, index: usize| is_row(ida, columns, row, index);
-    let mut table = Growing::open(target, columns, digest.number(), 0..ida.len(), is_row)?;
-    let resumed = table.next;
-    let fields = ida.fields();
-    let bar = Progress::of_points(ida.len(), resumed, request.quiet || request.json);
-    table.fill(ida.len(), threads, &bar, || {
-        let (mut run, fields) = (ida.worker(), &fields);
-        move |index| {
-            let run = run(index);
-            fields.iter().map(|field| text(field.cell(ida, &run))).collect::<StringRecord>()
-        }
-    })?;
-    Ok((table, resumed))
+    table.failure(out, false).map_or(Ok(()), Err)
 }
 
 /// Draws the curves of a finished table into `picture`, and its fragility into a file beside `picture`. Limit states and bands are those of the table of

@@ -3,12 +3,13 @@
 //! A table does not say how many points the sweep has. Missing points at the end are therefore noticed only if the sweep is given as
 //! well. Shards of different sweeps differ in their columns, or in the digests beside the tables.
 
-use crate::commands::sweep::{OUTCOME, TableDigest, columns, digest_file, inputs_of, is_row};
+use crate::commands::sweep::{columns, digest, inputs_of, is_row};
 use crate::commands::{fractiles, probability};
 use crate::error::{Failure, at};
 use crate::files::{folder_of, put_in_place, temporary};
 use crate::output;
-use crate::table::column::{Column, FAILURE, Rows, has_result};
+use crate::table::column::{Column, FAILURE, OUTCOME, Rows, has_result};
+use crate::table::digest::digest_file;
 #[cfg(feature = "parquet")]
 use crate::table::parquet;
 use crate::table::{Format, check_replaced, open};
@@ -109,7 +110,7 @@ fn check_digest(path: &Path, first: &Path, expected: Option<&ExpectedSweep>) -> 
     };
     let Some(own) = of_table(path)? else { return Ok(()) };
     let (expected, other) = match expected {
-        Some(expected) => (Some(TableDigest::of(&expected.sweep, expected.file)?.to_string()), expected.file),
+        Some(expected) => (Some(digest(&expected.sweep, expected.file)?.to_string()), expected.file),
         None => (of_table(first)?, first),
     };
     match expected {

@@ -9,19 +9,18 @@ use crate::commands::{fractiles, lost_at, spectrum};
 use crate::error::Failure;
 use crate::output;
 use crate::plot::Paper;
-use crate::progress::Progress;
-use crate::table::column::{Column, FAILURE, Kind, fits, has_result, text};
-use crate::table::growing::Growing;
+use crate::table::column::{Column, FAILURE, Kind, OUTCOME, fits, has_result, text};
+use crate::table::digest::{TableDigest, digest_file};
+use crate::table::making::{Made, Making};
+use crate::table::tally::Tally;
 use crate::table::{Format, check_replaced};
 use crate::terminal::{json, print, warn_of_some};
 use crate::text::{printable, shown};
 use csv::StringRecord;
 use rocking::Fate;
 use rocking::ground::read_file;
-use rocking::run_folder::Digest;
 use rocking::scene_file::Setting;
 use rocking::sweep::{Ask, Field, Row, Sweep};
-use rocking::trust::Degree;
 use serde::Serialize;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -34,9 +33,9 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
     if request.plot.is_some() {
         spectrum::check(request, &sweep)?;
     }
-    let made = Made::of(request, &sweep);
+    let derived = Derived::of(request, &sweep);
     let inputs = inputs_of(&request.file, &sweep);
-    output::check(&made.files(request, &out), &inputs)?;
+    output::check(&derived.files(request, &out), &inputs)?;
     let target = output::target(&out)?;
     check_replaced(&target)?;
     let columns = columns(&sweep)?;
@@ -44,18 +43,29 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
     if !request.quiet {
         warn_of_some(&sweep.warnings(points(request, &sweep), POINTS_READ));
     }
-    let digest = TableDigest::of(&sweep, &request.file)?;
-    let (table, resumed) = filled(request, &sweep, digest, &target, &columns, &threads)?;
-    let (tally, first_error) = Tally::of(&table.part).map_err(Failure::part(&table.part))?;
-    let rows = points(request, &sweep).len();
-    let failure = |first: String, is_kept| Failure::NoResult { table: out.clone(), points: rows, first, is_kept };
-    let first_of_all = first_error.as_ref().filter(|_| tally.errors == rows);
-    // A table of errors takes the place of no other table.
-    if let Some(first) = first_of_all.filter(|_| target.exists()) {
-        table.discard()?;
-        return Err(failure(first.clone(), true));
-    }
-    table.close(format, &columns)?;
+    let (digest, points) = (digest(&sweep, &request.file)?, points(request, &sweep));
+    let mut of_points = digest;
+    of_points.add(format!("{points:?}").as_bytes());
+    let making = Making {
+        out: &out,
+        target: &target,
+        format,
+        columns: &columns,
+        points,
+        threads: &threads,
+        is_quiet: request.quiet || request.json,
+    };
+    let fields = sweep.fields().map_err(Failure::scene)?;
+    let is_row = |row: &StringRecord, point: usize| is_row(&sweep, &columns, row, point);
+    let table = making.make(of_points, is_row, || {
+        let (mut row, fields, ask) = (sweep.worker(), &fields, sweep.ask);
+        move |index| {
+            let row = row(index);
+            let mut cells = StringRecord::with_capacity(USUAL_LENGTH, fields.len());
+            fields.iter().for_each(|field| cells.push_field(&cell(&row, *field, ask)));
+            cells
+        }
+    })?;
     // Only now: an interrupted run leaves the table of an earlier one with the digest of that one.
     match request.shard {
         Some(_) => output::file(&digest_file(&out), digest.to_string())?,
@@ -65,38 +75,39 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
     for by_product in [probability::table(&out), fractiles::table(&out)] {
         output::remove(&by_product, &inputs)?;
     }
-    let lost = if made.probabilities { probability::of(&sweep, &out)? } else { Vec::new() };
+    let lost = if derived.probabilities { probability::of(&sweep, &out)? } else { Vec::new() };
     let probabilities = probability::write(&sweep, &lost, &out)?;
-    let fractiles = if made.fractiles { fractiles::write(&sweep, &out)? } else { String::new() };
+    let fractiles = if derived.fractiles { fractiles::write(&sweep, &out)? } else { String::new() };
     // Last: where a figure cannot be drawn, the tables and the counts are there.
     let drawn =
         request.plot.as_ref().map_or(Ok(String::new()), |picture| spectrum::draw(&out, picture, &Paper::default()));
     if request.json {
-        json(&Counts { tally: &tally, lost })?;
+        json(&Counts { tally: &table.tally, lost })?;
     } else if !request.quiet {
-        let wrote = format!("wrote {rows} row(s){} to {}\n", already_there(resumed), shown(&out));
+        let Made { tally, rows, first_error, .. } = &table;
+        let wrote = format!("wrote {rows} row(s){} to {}\n", table.already_there(), shown(&out));
         // If all rows are errors, the failure below states the first one.
-        let failed = first_error.as_ref().filter(|_| tally.errors < rows);
+        let failed = first_error.as_ref().filter(|_| tally.errors < *rows);
         let failed = failed.map_or(String::new(), |error| format!("the first error: {error}\n"));
         let figures = drawn.as_deref().unwrap_or_default();
         let at = if request.shard.is_none() { lost_at::in_words(&sweep, &out)? } else { String::new() };
         print(&format!("{tally}{at}{failed}{wrote}{probabilities}{fractiles}{figures}"))?;
     }
     drawn?;
-    first_of_all.map_or(Ok(()), |first| Err(failure(first.clone(), false)))
+    table.failure(&out, false).map_or(Ok(()), Err)
 }
 
 /// Which tables are made of the table of a sweep. They need all its points: shards have none.
 #[derive(Clone, Copy)]
-struct Made {
+struct Derived {
     probabilities: bool,
     fractiles: bool,
 }
 
-impl Made {
-    fn of(request: &arguments::Sweep, sweep: &Sweep) -> Made {
+impl Derived {
+    fn of(request: &arguments::Sweep, sweep: &Sweep) -> Derived {
         let is_whole = request.shard.is_none();
-        Made { probabilities: is_whole && sweep.samples().is_some(), fractiles: is_whole && fractiles::has(sweep) }
+        Derived { probabilities: is_whole && sweep.samples().is_some(), fractiles: is_whole && fractiles::has(sweep) }
     }
 
     /// All files that a sweep writes.
@@ -115,34 +126,6 @@ fn points(request: &arguments::Sweep, sweep: &Sweep) -> Range<usize> {
     request.shard.map_or(0..sweep.len(), |shard| shard.points(sweep.len()))
 }
 
-/// The unfinished table with all its rows, and how many of them an interrupted sweep had left.
-fn filled(
-    request: &arguments::Sweep,
-    sweep: &Sweep,
-    mut digest: TableDigest,
-    target: &Path,
-    columns: &[Column],
-    threads: &rayon::ThreadPool,
-) -> Result<(Growing, usize), Failure> {
-    let points = points(request, sweep);
-    let fields = sweep.fields().map_err(Failure::scene)?;
-    digest.add(format!("{points:?}").as_bytes());
-    let is_row = |row: &StringRecord, point: usize| is_row(sweep, columns, row, point);
-    let mut table = Growing::open(target, columns, digest.number(), points.clone(), is_row)?;
-    let resumed = table.next - points.start;
-    let bar = Progress::of_points(points.len(), resumed, request.quiet || request.json);
-    table.fill(points.end, threads, &bar, || {
-        let (mut row, fields, ask) = (sweep.worker(), &fields, sweep.ask);
-        move |index| {
-            let row = row(index);
-            let mut cells = StringRecord::with_capacity(USUAL_LENGTH, fields.len());
-            fields.iter().for_each(|field| cells.push_field(&cell(&row, *field, ask)));
-            cells
-        }
-    })?;
-    Ok((table, resumed))
-}
-
 /// Room made for a row of a table, in bytes.
 const USUAL_LENGTH: usize = 256;
 
@@ -159,11 +142,6 @@ pub fn is_row(sweep: &Sweep, columns: &[Column], row: &StringRecord, point: usiz
         && fits(columns, row)
         && has_result(cell(OUTCOME), cell(FAILURE))
         && is_timed != cell(TIME).is_empty()
-}
-
-/// How many rows an interrupted run had left, in words; nothing if none.
-pub fn already_there(rows: usize) -> String {
-    if rows > 0 { format!(" ({rows} of them were there already)") } else { String::new() }
 }
 
 /// Largest number of points whose scenes are read before a sweep runs: a scene takes some 10 µs, and each record is read once.
@@ -193,8 +171,6 @@ fn records(sweep: &Sweep) -> Vec<PathBuf> {
     records
 }
 
-pub use crate::table::column::{OUTCOME, TRUNCATED, TRUST};
-
 /// The column of the time of overturning.
 pub const TIME: &str = "overturned_at";
 
@@ -222,57 +198,20 @@ fn cell(row: &Row, field: Field, ask: Ask) -> String {
     }
 }
 
-/// The file beside a shard's table that holds the digest of the sweep.
-pub fn digest_file(table: &Path) -> PathBuf {
-    let mut name = table.file_name().unwrap_or_default().to_os_string();
-    name.push(".digest");
-    table.with_file_name(name)
-}
-
-/// Digest of everything that determines the rows of a table, the version of the program included.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct TableDigest(Digest);
-
-impl TableDigest {
-    /// The digest of this version of the program.
-    pub fn new() -> TableDigest {
-        let mut digest = TableDigest(Digest::default());
-        digest.add(env!("CARGO_PKG_VERSION").as_bytes());
-        digest
+/// The digest of all that decides the rows of a sweep: version, sweep file, base scene, axes, records.
+pub fn digest(sweep: &Sweep, file: &Path) -> Result<TableDigest, Failure> {
+    let mut digest = TableDigest::new();
+    digest.add(rocking::scene_file::text(file).map_err(Failure::scene)?.as_bytes());
+    digest.add(sweep.template.text().as_bytes());
+    for axis in &sweep.axes {
+        digest.add(axis.key.as_bytes());
+        axis.values.iter().for_each(|value| digest.add(value.to_string().as_bytes()));
     }
-
-    /// The digest as a number.
-    pub fn number(self) -> u64 {
-        self.0.number()
+    // Another record of the same name gives other rows.
+    for record in records(sweep) {
+        digest.add(&read_file(&record).unwrap_or_default());
     }
-
-    /// The digest of all that decides the rows of a sweep: version, sweep file, base scene, axes, records.
-    pub fn of(sweep: &Sweep, file: &Path) -> Result<TableDigest, Failure> {
-        let mut digest = TableDigest::new();
-        digest.add(rocking::scene_file::text(file).map_err(Failure::scene)?.as_bytes());
-        digest.add(sweep.template.text().as_bytes());
-        for axis in &sweep.axes {
-            digest.add(axis.key.as_bytes());
-            axis.values.iter().for_each(|value| digest.add(value.to_string().as_bytes()));
-        }
-        // Another record of the same name gives other rows.
-        for record in records(sweep) {
-            digest.add(&read_file(&record).unwrap_or_default());
-        }
-        Ok(digest)
-    }
-
-    /// Adds bytes, and a zero byte that ends them.
-    pub fn add(&mut self, bytes: &[u8]) {
-        self.0.add(bytes);
-        self.0.add(b"\0");
-    }
-}
-
-impl std::fmt::Display for TableDigest {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        self.0.fmt(f)
-    }
+    Ok(digest)
 }
 
 /// A sweep as JSON.
@@ -283,92 +222,4 @@ struct Counts<'a> {
     /// Probabilities of a sweep over distributions.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     lost: Vec<Lost>,
-}
-
-/// Number of rows by outcome.
-#[derive(Debug, Default, Serialize)]
-pub struct Tally {
-    no_uplift: usize,
-    rocks: usize,
-    overturns: usize,
-    /// With friction only, as `collapses` and `undetermined`.
-    slides: usize,
-    collapses: usize,
-    undetermined: usize,
-    pub errors: usize,
-    /// Rows of truncated runs: the blocks stand at `t_end`, and the ground moves on, they may overturn, or they slide on. They are also counted by outcome.
-    truncated: usize,
-    /// Rows whose verdict is not determined, in sweeps that ask for trust and in studies. They are counted here alone.
-    not_determined: usize,
-    /// Rows whose verdict is likely. They are also counted by outcome.
-    pub likely: usize,
-}
-
-impl Tally {
-    /// The tally of a table of CSV, and the first error in it.
-    pub fn of(path: &Path) -> std::io::Result<(Tally, Option<String>)> {
-        let (mut tally, mut first_error) = (Tally::default(), None);
-        let mut reader = csv::Reader::from_path(path)?;
-        let place = |headers: &StringRecord, column: &str| headers.iter().position(|name| name == column);
-        let headers = reader.headers()?;
-        let [outcome, truncated, trust] = [OUTCOME, TRUNCATED, TRUST].map(|name| place(headers, name));
-        let mut row = StringRecord::new();
-        while reader.read_record(&mut row)? {
-            tally.truncated += usize::from(truncated.and_then(|place| row.get(place)) == Some("true"));
-            let degree = trust.and_then(|place| Degree::parse(row.get(place)?));
-            tally.likely += usize::from(degree == Some(Degree::Likely));
-            *match outcome.and_then(|outcome| row.get(outcome)).unwrap_or_default() {
-                name if name == Fate::Undetermined.name() => &mut tally.undetermined,
-                _ if degree == Some(Degree::NotDetermined) => &mut tally.not_determined,
-                name if name == Fate::NoUplift.name() => &mut tally.no_uplift,
-                name if name == Fate::Rocks.name() => &mut tally.rocks,
-                name if name == Fate::Overturns.name() => &mut tally.overturns,
-                name if name == Fate::Slides.name() => &mut tally.slides,
-                name if name == Fate::Collapses.name() => &mut tally.collapses,
-                name if name == Fate::NotDetermined.name() => &mut tally.not_determined,
-                _ => {
-                    first_error.get_or_insert_with(|| row.iter().next_back().unwrap_or_default().to_string());
-                    &mut tally.errors
-                }
-            } += 1;
-        }
-        Ok((tally, first_error))
-    }
-}
-
-/// A line about runs whose verdict is likely; empty if there are none.
-pub fn likely_in_words(runs: usize) -> String {
-    match runs {
-        0 => String::new(),
-        _ => format!(
-            "likely: {runs} run(s), counted with their own outcome: nine companions do not determine it, and 24 more have it as well \
-             (column {TRUST}; the book, trust)\n"
-        ),
-    }
-}
-
-impl std::fmt::Display for Tally {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Tally { no_uplift, rocks, overturns, errors, .. } = self;
-        write!(f, "no uplift {no_uplift}, rocks {rocks}, overturns {overturns}")?;
-        let others = [
-            ("slides", self.slides),
-            ("collapses", self.collapses),
-            ("undetermined", self.undetermined),
-            ("not determined (column trust)", self.not_determined),
-        ];
-        for (name, count) in others.iter().filter(|(_, count)| *count > 0) {
-            write!(f, ", {name} {count}")?;
-        }
-        writeln!(f, ", errors {errors}")?;
-        f.write_str(&likely_in_words(self.likely))?;
-        if self.truncated > 0 {
-            writeln!(
-                f,
-                "{} run(s) are cut at solver.t_end: the ground still moves there, the column may be falling, or blocks slide on",
-                self.truncated
-            )?;
-        }
-        Ok(())
-    }
 }

@@ -1,0 +1,96 @@
+//! How many runs of a table ended how.
+
+use super::column::{OUTCOME, TRUNCATED, TRUST};
+use csv::StringRecord;
+use rocking::Fate;
+use rocking::trust::Degree;
+use serde::Serialize;
+use std::path::Path;
+
+/// Number of rows by outcome.
+#[derive(Debug, Default, Serialize)]
+pub struct Tally {
+    no_uplift: usize,
+    rocks: usize,
+    overturns: usize,
+    /// With friction only, as `collapses` and `undetermined`.
+    slides: usize,
+    collapses: usize,
+    undetermined: usize,
+    pub errors: usize,
+    /// Rows of truncated runs: the blocks stand at `t_end`, and the ground moves on, they may overturn, or they slide on. They are also counted by outcome.
+    truncated: usize,
+    /// Rows whose verdict is not determined, in sweeps that ask for trust and in studies. They are counted here alone.
+    not_determined: usize,
+    /// Rows whose verdict is likely. They are also counted by outcome.
+    pub likely: usize,
+}
+
+impl Tally {
+    /// The tally of a table of CSV, and the first error in it.
+    pub fn of(path: &Path) -> std::io::Result<(Tally, Option<String>)> {
+        let (mut tally, mut first_error) = (Tally::default(), None);
+        let mut reader = csv::Reader::from_path(path)?;
+        let place = |headers: &StringRecord, column: &str| headers.iter().position(|name| name == column);
+        let headers = reader.headers()?;
+        let [outcome, truncated, trust] = [OUTCOME, TRUNCATED, TRUST].map(|name| place(headers, name));
+        let mut row = StringRecord::new();
+        while reader.read_record(&mut row)? {
+            tally.truncated += usize::from(truncated.and_then(|place| row.get(place)) == Some("true"));
+            let degree = trust.and_then(|place| Degree::parse(row.get(place)?));
+            tally.likely += usize::from(degree == Some(Degree::Likely));
+            *match outcome.and_then(|outcome| row.get(outcome)).unwrap_or_default() {
+                name if name == Fate::Undetermined.name() => &mut tally.undetermined,
+                _ if degree == Some(Degree::NotDetermined) => &mut tally.not_determined,
+                name if name == Fate::NoUplift.name() => &mut tally.no_uplift,
+                name if name == Fate::Rocks.name() => &mut tally.rocks,
+                name if name == Fate::Overturns.name() => &mut tally.overturns,
+                name if name == Fate::Slides.name() => &mut tally.slides,
+                name if name == Fate::Collapses.name() => &mut tally.collapses,
+                name if name == Fate::NotDetermined.name() => &mut tally.not_determined,
+                _ => {
+                    first_error.get_or_insert_with(|| row.iter().next_back().unwrap_or_default().to_string());
+                    &mut tally.errors
+                }
+            } += 1;
+        }
+        Ok((tally, first_error))
+    }
+}
+
+/// A line about runs whose verdict is likely; empty if there are none.
+pub fn likely_in_words(runs: usize) -> String {
+    match runs {
+        0 => String::new(),
+        _ => format!(
+            "likely: {runs} run(s), counted with their own outcome: nine companions do not determine it, and 24 more have it as well \
+             (column {TRUST}; the book, trust)\n"
+        ),
+    }
+}
+
+impl std::fmt::Display for Tally {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Tally { no_uplift, rocks, overturns, errors, .. } = self;
+        write!(f, "no uplift {no_uplift}, rocks {rocks}, overturns {overturns}")?;
+        let others = [
+            ("slides", self.slides),
+            ("collapses", self.collapses),
+            ("undetermined", self.undetermined),
+            ("not determined (column trust)", self.not_determined),
+        ];
+        for (name, count) in others.iter().filter(|(_, count)| *count > 0) {
+            write!(f, ", {name} {count}")?;
+        }
+        writeln!(f, ", errors {errors}")?;
+        f.write_str(&likely_in_words(self.likely))?;
+        if self.truncated > 0 {
+            writeln!(
+                f,
+                "{} run(s) are cut at solver.t_end: the ground still moves there, the column may be falling, or blocks slide on",
+                self.truncated
+            )?;
+        }
+        Ok(())
+    }
+}
