@@ -8,7 +8,7 @@ use crate::number::significant;
 use rocking::Event;
 use rocking::pattern::Pattern;
 use rocking::run_folder::Results;
-use rocking::{BlockState, ModeName, Sample, StopReason};
+use rocking::{BlockAtEvent, BlockState, ModeName, Sample, StopReason};
 use std::f64::consts::FRAC_PI_2;
 
 /// The column at a row or an event. Lengths N, base first.
@@ -18,12 +18,20 @@ pub struct Knot<'a> {
     pub t: f64,
     /// `[rad]`
     pub theta: &'a [f64],
-    /// Rates `[rad/s]` and pattern, at a row or before an event.
-    pub before: (&'a [f64], Pattern),
-    /// Rates `[rad/s]` and pattern after an event; `None` for a row.
-    pub after: Option<(&'a [f64], Pattern)>,
-    /// Places and velocities of the blocks, before and after an event; a row has the first list only. Empty unless blocks slid or flew.
-    pub blocks: [Vec<BlockState>; 2],
+    /// At a row, or before an event.
+    pub before: Side<'a>,
+    /// After an event; `None` for a row.
+    pub after: Option<Side<'a>>,
+}
+
+/// What may jump at an event. Lengths N, base first.
+#[derive(Clone, Debug)]
+pub struct Side<'a> {
+    /// Rates `[rad/s]`.
+    pub omega: &'a [f64],
+    pub pattern: Pattern,
+    /// Places and velocities of the blocks; empty unless blocks slid or flew.
+    blocks: Vec<BlockState>,
 }
 
 /// A stretch of time in one pattern.
@@ -170,7 +178,7 @@ impl DrawnRun<'_> {
         let mut stretches = vec![named(pattern, 0.0)];
         for knot in &self.knots {
             // Blocks that fly turn from one pattern to another without an event: the next row has it.
-            let own = knot.after.as_ref().map_or(&knot.before.1, |(_, after)| after);
+            let own = &knot.after.as_ref().unwrap_or(&knot.before).pattern;
             if own == pattern {
                 continue;
             }
@@ -198,9 +206,8 @@ fn knots<'a>(samples: &'a [Sample], events: &'a [Event]) -> Vec<Knot<'a>> {
         }
         // A row at the time of an event may hold the state before or after the event, and is left out.
         if !taken {
-            let before = (sample.omega.as_slice(), sample.pattern.clone());
-            let blocks = [sample.blocks.clone(), Vec::new()];
-            knots.push(Knot { t: sample.t, theta: &sample.theta, before, after: None, blocks });
+            let before = Side { omega: &sample.omega, pattern: sample.pattern.clone(), blocks: sample.blocks.clone() };
+            knots.push(Knot { t: sample.t, theta: &sample.theta, before, after: None });
         }
     }
     knots.extend(events.map(at_event));
@@ -213,26 +220,25 @@ fn at_event(event: &Event) -> Knot<'_> {
         (state.place, state.velocity) = (place, velocity);
         state
     };
-    let blocks = [
-        event.blocks.iter().map(|block| state(block.place, block.velocity_before)).collect(),
-        event.blocks.iter().map(|block| state(block.place, block.velocity_after)).collect(),
-    ];
-    Knot {
-        blocks,
-        t: event.t,
-        theta: &event.theta,
-        before: (&event.omega_before[..], event.before.clone()),
-        after: Some((&event.omega_after[..], event.after.clone())),
-    }
+    let blocks = |velocity: fn(&BlockAtEvent) -> [f64; 2]| {
+        event.blocks.iter().map(|block| state(block.place, velocity(block))).collect()
+    };
+    let before = Side {
+        omega: &event.omega_before,
+        pattern: event.before.clone(),
+        blocks: blocks(|block| block.velocity_before),
+    };
+    let after =
+        Side { omega: &event.omega_after, pattern: event.after.clone(), blocks: blocks(|block| block.velocity_after) };
+    Knot { t: event.t, theta: &event.theta, before, after: Some(after) }
 }
 
 impl Knot<'_> {
     /// The knot as rows, one for each side of an event. The rows have no ground motion, and serve only for quantities that do not need it.
     pub fn rows(&self) -> impl Iterator<Item = Sample> {
-        let sides = std::iter::once(&self.before).chain(&self.after).zip(&self.blocks);
-        sides.map(|((omega, pattern), blocks)| {
-            let mut row = Sample::new(self.t, self.theta.to_vec(), omega.to_vec(), pattern.clone());
-            row.blocks.clone_from(blocks);
+        std::iter::once(&self.before).chain(&self.after).map(|side| {
+            let mut row = Sample::new(self.t, self.theta.to_vec(), side.omega.to_vec(), side.pattern.clone());
+            row.blocks.clone_from(&side.blocks);
             row
         })
     }

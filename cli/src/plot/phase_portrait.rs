@@ -36,7 +36,7 @@ pub fn draw(motion: &DrawnRun) -> Figure {
     let unit = unit(motion);
     let angles = seen().map(|(knot, block)| knot.theta[block] / unit);
     let rates = seen().flat_map(|(knot, block)| {
-        std::iter::once(&knot.before).chain(&knot.after).map(move |(omega, _)| omega[block] / unit).collect::<Vec<_>>()
+        std::iter::once(&knot.before).chain(&knot.after).map(move |side| side.omega[block] / unit).collect::<Vec<_>>()
     });
     let width = (sheet.width - LEFT - RIGHT - GAP * (across - 1) as f64) / across as f64;
     let height = if blocks == 1 { 0.62 * width } else { 1.15 * width.min(240.0) };
@@ -75,7 +75,7 @@ pub fn draw(motion: &DrawnRun) -> Figure {
 
 /// Whether the rate of a block jumps.
 fn has_jumps(motion: &DrawnRun) -> bool {
-    before_the_fall(motion).any(|knot| knot.after.as_ref().is_some_and(|(after, _)| *after != knot.before.0))
+    before_the_fall(motion).any(|knot| knot.after.as_ref().is_some_and(|after| after.omega != knot.before.omega))
 }
 
 /// Unit of angles, and of rates per second: 1° or 1 rad `[rad]`.
@@ -102,10 +102,10 @@ fn portrait(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel, block: usize) {
     let mut jumps = Vec::new();
     for knot in before_the_fall(motion) {
         let at = |omega: &[f64]| panel.place([knot.theta[block] / unit, omega[block] / unit]);
-        let before = at(knot.before.0);
+        let before = at(knot.before.omega);
         runs.last_mut().expect("there is a first").push(before);
-        if let Some((omega, _)) = &knot.after {
-            let after = at(omega);
+        if let Some(after) = &knot.after {
+            let after = at(after.omega);
             if after != before {
                 jumps.push(vec![before, after]);
                 runs.push(vec![after]);

@@ -334,7 +334,7 @@ fn caption(motion: &DrawnRun) -> String {
         });
     }
     caption.push_str(&band::caption(motion));
-    let is_still = |knot: &Knot| knot.theta.iter().chain(knot.before.0).all(|value| *value == 0.0);
+    let is_still = |knot: &Knot| knot.theta.iter().chain(knot.before.omega).all(|value| *value == 0.0);
     if response.events.is_empty() && motion.knots.iter().all(is_still) {
         caption.push_str(" Nothing sets the column in motion.");
     } else {
