@@ -1,34 +1,46 @@
 //! A run as a fold over stretches: a stretch of motion, its record, and at its end the transition from `x⁻` to `x⁺`.
+//!
+//! Modules in the order in which a run meets them.
 
-pub mod certainty;
-mod cones;
-mod diagnostics;
 mod error;
+mod problem;
+mod simulator;
+
+// The loop, and what it is a fold of.
 mod event_loop;
+mod state;
+mod stretch;
+mod transition;
+
+// What moves the column from one event to the next: rest, or a mode. Kinds of stretches of a mode: steps, steps over several samples, swings.
+mod modes;
+mod rest;
+mod rest_guards;
+mod start_from_rest;
+
 mod expected_event;
 mod force_cache;
-mod log;
-mod modes;
 mod multi_sample_step;
+mod phase;
+mod phase_motion;
+mod step;
+mod stretch_kinds;
+mod swing;
+
+// What is recorded of it.
+mod log;
 mod needs;
 mod panel_forces;
 mod panels;
-mod phase;
-mod phase_motion;
-mod problem;
 mod progress;
 mod recorder;
-mod rest;
-mod rest_guards;
-mod simulator;
+
+// How far it is certain; how far it holds where blocks may slide; and runs in which they do.
+pub mod certainty;
+mod cones;
 mod sliding;
-mod start_from_rest;
-mod state;
-mod step;
-mod stretch;
-mod stretch_kinds;
-mod swing;
-mod transition;
+
+mod diagnostics;
 
 pub use error::SolveError;
 pub use problem::Skips;

@@ -17,11 +17,14 @@ use rocking_ground::Segment;
 use std::ops::ControlFlow;
 
 /// Number of times per radian of the ground motion at which contact forces at rest are recorded. Crests of the forces are recorded in addition; one is
-/// missed only where [`LEAST_AND_MOST_PLACES`] limits the number of places: in a rest of 1,300 cycles or more.
+/// missed only where [`MOST_PLACES`] limits the number of places: in a rest of 1,300 cycles or more.
 const PLACES_PER_RADIAN: f64 = 8.0;
 
-/// Least and most places per segment.
-const LEAST_AND_MOST_PLACES: (f64, f64) = (16.0, 65_536.0);
+/// Least number of places in a segment.
+const LEAST_PLACES: f64 = 16.0;
+
+/// Largest number of places in a segment.
+const MOST_PLACES: f64 = 65_536.0;
 
 /// The column at rest, waiting for the ground to start it.
 #[derive(Default)]
@@ -64,9 +67,9 @@ impl Flow for Rest {
             self.work.rest_stretches += usize::from(problem.skips.rests);
             self.last = index;
             let start = find_at_rest(segment, t, progress, |span| earliest_start(problem, segment, span, limit))?;
-            if let Some((start, interface, side)) = start {
-                t = start;
-                break Ended::Opening(interface, side);
+            if let Some(start) = start {
+                t = start.t;
+                break Ended::Opening(start.interface, start.side);
             }
             t = segment.end;
             if index + 1 == problem.ground.len() {
@@ -135,7 +138,7 @@ pub(crate) fn visit_forces(
     note: &mut dyn FnMut(&[ContactForce], [f64; 2]),
 ) {
     let radians = segment.horizontal.omega().max(segment.vertical.omega()) * (until - from);
-    let count = (PLACES_PER_RADIAN * radians).clamp(LEAST_AND_MOST_PLACES.0, LEAST_AND_MOST_PLACES.1) as usize;
+    let count = (PLACES_PER_RADIAN * radians).clamp(LEAST_PLACES, MOST_PLACES) as usize;
     let gravity = column.gravity();
     let mut last = from;
     let mut visit = |t: f64| {

@@ -22,13 +22,18 @@ pub(super) fn least_uplift(column: &Column) -> f64 {
 /// Share of [`least_uplift`] below which rounding cannot open an interface.
 const CLEAR_SHARE: f64 = 1.0 - 1e-9;
 
-/// The first opening of the column at rest in a span of a segment `[s]`: time `[s]`, interface (from zero) and side. `limit` is [`least_uplift`].
-pub(super) fn earliest_start(
-    problem: &Problem,
-    segment: &Segment,
-    [t, until]: [f64; 2],
-    limit: f64,
-) -> Option<(f64, usize, Interface)> {
+/// How a column at rest starts.
+pub(super) struct Start {
+    /// `[s]`
+    pub t: f64,
+    /// The interface that opens, from zero.
+    pub interface: usize,
+    /// The side on which it opens.
+    pub side: Interface,
+}
+
+/// The first opening of the column at rest in a span of a segment `[s]`. `limit` is [`least_uplift`].
+pub(super) fn earliest_start(problem: &Problem, segment: &Segment, [t, until]: [f64; 2], limit: f64) -> Option<Start> {
     if !problem.skips.rests {
         return by_steps(problem, segment, [t, until]);
     }
@@ -66,13 +71,16 @@ fn until_sine_is(limit: f64, segment: &Segment, t: f64) -> f64 {
     (first - before).max(0.0) / omega
 }
 
-/// Steps of a rest that is not skipped: per radian of the ground motion, and the least number per second.
-const STEPS_PER_RADIAN_AND_SECOND: [f64; 2] = [20.0, 100.0];
+/// Steps of a rest that is not skipped, per radian of the ground motion.
+const STEPS_PER_RADIAN: f64 = 20.0;
+
+/// Least number of them per second.
+const LEAST_STEPS_PER_SECOND: f64 = 100.0;
 
 /// As [`earliest_start`], but nothing is left out: step by step, as an integrator would go.
-fn by_steps(problem: &Problem, segment: &Segment, [from, end]: [f64; 2]) -> Option<(f64, usize, Interface)> {
+fn by_steps(problem: &Problem, segment: &Segment, [from, end]: [f64; 2]) -> Option<Start> {
     let omega = segment.horizontal.omega().max(segment.vertical.omega());
-    let step = 1.0 / (STEPS_PER_RADIAN_AND_SECOND[0] * omega).max(STEPS_PER_RADIAN_AND_SECOND[1]);
+    let step = 1.0 / (STEPS_PER_RADIAN * omega).max(LEAST_STEPS_PER_SECOND);
     let mut t = from;
     loop {
         let until = (t + step).min(end);
@@ -85,11 +93,15 @@ fn by_steps(problem: &Problem, segment: &Segment, [from, end]: [f64; 2]) -> Opti
 }
 
 /// The first opening between two instants.
-fn start_before(problem: &Problem, segment: &Segment, from: f64, until: f64) -> Option<(f64, usize, Interface)> {
+fn start_before(problem: &Problem, segment: &Segment, from: f64, until: f64) -> Option<Start> {
     let column = &problem.scene.column;
     let corner = |interface: usize, side: Interface| (RestGuard::corner(column, interface, side), (interface, side));
     let guards = || (0..column.len()).flat_map(|interface| SIDES.map(|side| corner(interface, side)));
-    first_zero(segment, column.gravity(), [from, until], guards).map(|(t, (interface, side))| (t, interface, side))
+    first_zero(segment, column.gravity(), [from, until], guards).map(|(t, (interface, side))| Start {
+        t,
+        interface,
+        side,
+    })
 }
 
 impl Scene {

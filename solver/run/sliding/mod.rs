@@ -12,21 +12,27 @@
 //!
 //! A scene without friction does not come here.
 
+mod state;
+pub(super) mod sticking;
+mod transition;
+
+// What a transition does: blocks that touch, impacts, motions too low to be followed.
 mod contacts;
-mod explicit_steps;
 mod impact;
 mod joining;
 mod low_motion;
+
+// Motion from one event to the next.
+mod explicit_steps;
 mod mover;
-mod outlook;
-mod recorder;
 mod series_steps;
 mod smooth;
-mod state;
 mod step;
 mod steps;
-pub(super) mod sticking;
-mod transition;
+
+// What is recorded, and what may still come of it.
+mod outlook;
+mod recorder;
 
 use super::error::SolveError;
 use super::modes::Modes;
