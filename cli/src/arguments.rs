@@ -206,7 +206,7 @@ pub struct Run {
     /// Run the scene alone, without the companions that say how far its verdict can be trusted.
     ///
     /// Companions are the same scene at a tighter tolerance, and with excitation, sizes and friction changed by 1e-9 and 1e-6. They, and the search for the
-    /// change of the shaking that changes the verdict, take 7 to 30 times as long as the run on one thread, and up to 70 times where nine are too few;
+    /// change of the shaking that changes the verdict, take 7 to 30 times as long as the run on one thread, and up to 73 times where nine are too few;
     /// they run on all. Without them `response.csv` and `events.json` are the same.
     #[arg(long)]
     pub no_trust: bool,

@@ -166,7 +166,7 @@ impl Ida {
     }
 
     /// The study with or without companion runs, which show whether the verdict of each run is determined ([`crate::trust`]). The default is with
-    /// companions, which take 7 to 30 times as long as the runs themselves on one thread, up to 70 times where nine are too few.
+    /// companions, which take 7 to 30 times as long as the runs themselves on one thread, up to 73 times where nine are too few.
     #[must_use]
     pub fn followed(self, is_followed: bool) -> Ida {
         Ida { is_followed, ..self }

@@ -23,7 +23,7 @@ pub enum Ask {
     /// As [`Ask::Peaks`], and what contacts need; of scenes without friction.
     Validity,
     /// As [`Ask::Peaks`], and whether the verdict is determined or likely, which companions of each run show ([`crate::trust`]).
-    /// On one thread it takes 7 to 30 times as long, up to 70 times where nine companions are too few.
+    /// On one thread it takes 7 to 30 times as long, up to 73 times where nine companions are too few.
     Trust,
 }
 

@@ -1,4 +1,4 @@
-//! How much more or less shaking changes the verdict, among a few changes tried.
+//! The fold, where the verdict turns over: how much more or less shaking it takes, among a few changes tried.
 //!
 //! Outcomes are not monotonic: a column that overturns with 1 % more may stand with 2 % more, and what lies between two changes tried is not known.
 

@@ -73,7 +73,7 @@ pub fn follow(scene: &Scene) -> Result<(Response, Trust), SolveError> {
 }
 
 /// Runs the companions of a finished run: the response of this scene with [`Wanted::Everything`]. With one that ended early,
-/// where its outcome was certain, companions are compared up to that time alone. On one thread this takes 7 to 30 times as long as the run, up to 70 times
+/// where its outcome was certain, companions are compared up to that time alone. On one thread this takes 7 to 30 times as long as the run, up to 73 times
 /// where nine are too few; companions run on all threads of the present rayon pool.
 ///
 /// # Errors

@@ -51,7 +51,7 @@ impl Followed {
         match self {
             Followed::No => String::new(),
             Followed::TooLong(seconds) => {
-                format!("trust: not examined, as the run took {seconds:.0} s; `--trust` takes 7 to 70 times as long\n")
+                format!("trust: not examined, as the run took {seconds:.0} s; `--trust` takes 7 to 73 times as long\n")
             }
             Followed::By(trust) => format!("trust: {}\n", trust.sentence()),
         }

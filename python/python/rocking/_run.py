@@ -72,7 +72,7 @@ def simulate(
         ``everything``, ``outcome`` (whether and when it overturns: no rows, events, peaks or forces) or ``overturns`` (whether it does).
     trust : bool
         Whether the run is followed by its companions, as ``rocking run`` does: ``run.trust`` then says how far it is determined. The run itself is the same.
-        Companions take 7 to 30 times as long as the run, up to 70 times where nine are too few, shared among all threads of the machine. With ``wanted="everything"`` alone.
+        Companions take 7 to 30 times as long as the run, up to 73 times where nine are too few, shared among all threads of the machine. With ``wanted="everything"`` alone.
     **arguments
         As of :class:`Scene`.
 

@@ -46,7 +46,7 @@ class Ida:
         Period [s] and damping ratio of ``sa`` and ``sa_g``; the ratio is 0.05 unless given.
     trust : bool
         Whether each run is followed by its companions, which say whether its verdict is determined or likely (column ``trust``); the default. They take 7 to 30
-        times as long as the runs, up to 70 times.
+        times as long as the runs, up to 73 times.
     **arguments
         As of :class:`Scene`.
 
