@@ -1,6 +1,6 @@
 //! What the library claims about whole runs, a file for each claim; `common` holds what files share.
 //!
-//! Run the tests of a file by its name: `cargo test --release --test solver stress::`.
+//! Run the tests of a file by its name: `cargo test --release --test solver stress::`. Those of files whose names end so run as well.
 
 mod common;
 

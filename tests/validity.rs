@@ -160,7 +160,7 @@ fn the_point_of_no_return_is_found_within_long_swings() {
     }
 }
 
-/// A block that falls in one free swing: only the panels in which its normal force passes zero are read in parts.
+/// A block that falls in a free swing: only panels whose least normal force is within 2e-3 of the weight from zero are read in parts.
 #[test]
 fn a_fall_costs_few_contact_forces() {
     let text = r#"

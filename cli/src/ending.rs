@@ -46,7 +46,7 @@ impl Ending {
             StopReason::Stands => Ending::CertainToStand,
             _ if response.may_overturn => Ending::MayBeFalling,
             _ if response.cuts_ground_motion() => Ending::GroundStillMoves,
-            StopReason::AtRest if response.events.is_empty() && response.t_final == 0.0 => Ending::NeverStarted,
+            StopReason::AtRest if response.events.is_empty() => Ending::NeverStarted,
             StopReason::AtRest => Ending::AtRest,
             _ => Ending::Standing { still: still_moves(response) },
         }

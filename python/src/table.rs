@@ -95,13 +95,13 @@ pub fn values<'r, E: Display + 'r>(
 }
 
 /// Whole numbers with blanks.
-pub fn whole(values: impl Iterator<Item = Option<usize>>) -> Values {
+fn whole(values: impl Iterator<Item = Option<usize>>) -> Values {
     let (values, blanks) = values.map(|value| (value.map_or(0, |value| value as i64), value.is_none())).unzip();
     Values::Whole(values, blanks)
 }
 
 /// Truth values with blanks.
-pub fn truth(values: impl Iterator<Item = Option<bool>>) -> Values {
+fn truth(values: impl Iterator<Item = Option<bool>>) -> Values {
     let (values, blanks) = values.map(|value| (value.unwrap_or_default(), value.is_none())).unzip();
     Values::Truth(values, blanks)
 }

@@ -34,7 +34,7 @@ pub enum Guard {
     Land(Corner),
     /// The angle of a block reaches the overturning angle.
     Overturn(usize),
-    /// The determinant of the rows falls to zero: beyond, no forces continue the motion.
+    /// The determinant of the rows falls to zero, or forces grow without bound: no forces continue the motion.
     Jam,
 }
 

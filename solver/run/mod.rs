@@ -1,6 +1,6 @@
 //! A run as a fold over stretches: a stretch of motion, its record, and at its end the transition from `x⁻` to `x⁺`.
 //!
-//! Modules in the order in which a run meets them.
+//! Modules by what they do, roughly in the order in which a run meets them.
 
 mod error;
 mod problem;

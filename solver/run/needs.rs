@@ -183,7 +183,9 @@ impl Needs {
             self.is_fresh |= !counted.covers(own) && counted.add(own, time, weight);
             return;
         }
-        if self.past_since <= time(0.0) {
+        let start = time(0.0);
+        // A panel of no length at the balance counts.
+        if self.past_since < start || self.past_since == start && start < time(1.0) {
             self.is_fresh |= !self.overturns && pending.add(own, time, weight);
         } else if time(1.0) <= self.past_since {
             self.is_fresh |= counted.add(own, time, weight);

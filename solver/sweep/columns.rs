@@ -68,7 +68,7 @@ pub enum CellKind {
 }
 
 /// The content of a cell of a table of runs that fail with an error `E`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Cell<'r, E = PointError> {
     /// Nothing to show: the run failed or does not have the quantity, or the cell belongs to the point.
@@ -85,8 +85,19 @@ pub enum Cell<'r, E = PointError> {
     Error(&'r E),
 }
 
-/// Headings of the columns of results that a study has beside those of a sweep.
+// Not derived: an error need not be copied with a reference to it.
+impl<E> Clone for Cell<'_, E> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<E> Copy for Cell<'_, E> {}
+
+/// Heading of a column that studies have and sweeps have not: when an interface first opened.
 pub(crate) const FIRST_UPLIFT: &str = "first_uplift";
+
+/// Heading of another one: the largest gap.
 pub(crate) const LARGEST_GAP: &str = "largest_gap";
 
 /// Columns of results, beside those of each block.

@@ -6,10 +6,11 @@ use rayon::prelude::*;
 use rocking::ground::{Synthetic, TextOptions};
 use rocking::trust::{self, Trust, TrustOptions, Verdict};
 use rocking::{Block, Column, Friction, Method, Motion, Record, Restitution, Scene, StopReason, simulate};
+use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, Once};
 
 /// Slender stacks in long shaking: harmonic motion or a record, one to three blocks. The record is one of these, or a synthetic one where there are none.
 fn scene(seed: u64, records: &[Record]) -> Scene {
@@ -127,12 +128,26 @@ fn count_all(seeds: std::ops::Range<u64>, records: &[Record], tally: &Mutex<Tall
             count(seed, records, tally);
         }
     };
-    let hook = std::panic::take_hook();
-    // A reference that parts from doubles says so by a panic.
-    std::panic::set_hook(Box::new(|_| {}));
+    static HOOK: Once = Once::new();
+    HOOK.call_once(|| {
+        let usual = std::panic::take_hook();
+        std::panic::set_hook(Box::new(move |panic| {
+            if !IS_SILENT.get() {
+                usual(panic)
+            }
+        }));
+    });
+    let silently = || {
+        IS_SILENT.set(true);
+        work();
+    };
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    std::thread::scope(|scope| (0..cores).for_each(|_| drop(scope.spawn(work))));
-    std::panic::set_hook(hook);
+    std::thread::scope(|scope| (0..cores).for_each(|_| drop(scope.spawn(silently))));
+}
+
+thread_local! {
+    /// Whether panics of this thread print nothing: a reference that parts from doubles says so by a panic.
+    static IS_SILENT: Cell<bool> = const { Cell::new(false) };
 }
 
 /// Scenes between two lines of a long count.

@@ -54,7 +54,9 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
         columns: &columns,
         points: 0..ida.len(),
         threads: &threads,
-        is_quiet: request.quiet || request.json,
+        shows_progress: !request.quiet && !request.json,
+        outdated: &derived,
+        inputs,
     };
     let is_row = |row: &StringRecord, index: usize| is_row(ida, &columns, row, index);
     let table = making.make(digest(inputs)?, is_row, || {
@@ -64,11 +66,6 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
             fields.iter().map(|field| text(field.cell(ida, &run))).collect()
         }
     })?;
-    // What was made of an earlier table of this name must not stand beside the new one.
-    for table in &derived {
-        output::remove(table, inputs)?;
-    }
-
     // What follows is made of the table, so that it is the same whether or not the study was interrupted.
     let runs = runs::read(out, None, &[])?.runs;
     let stripes = stripes(&runs);

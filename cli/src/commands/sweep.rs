@@ -53,7 +53,9 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
         columns: &columns,
         points,
         threads: &threads,
-        is_quiet: request.quiet || request.json,
+        shows_progress: !request.quiet && !request.json,
+        outdated: &[probability::table(&out), fractiles::table(&out)],
+        inputs: &inputs,
     };
     let fields = sweep.fields().map_err(Failure::scene)?;
     let is_row = |row: &StringRecord, point: usize| is_row(&sweep, &columns, row, point);
@@ -70,10 +72,6 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
     match request.shard {
         Some(_) => output::file(&digest_file(&out), digest.to_string())?,
         None => output::remove(&digest_file(&out), &inputs)?,
-    }
-    // Tables that belong to the table of an earlier sweep of this name.
-    for by_product in [probability::table(&out), fractiles::table(&out)] {
-        output::remove(&by_product, &inputs)?;
     }
     let lost = if derived.probabilities { probability::of(&sweep, &out)? } else { Vec::new() };
     let probabilities = probability::write(&sweep, &lost, &out)?;

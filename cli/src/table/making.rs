@@ -6,11 +6,12 @@ use super::digest::TableDigest;
 use super::growing::Growing;
 use super::tally::Tally;
 use crate::error::Failure;
+use crate::output;
 use crate::progress::Progress;
 use csv::StringRecord;
 use rayon::ThreadPool;
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// What is to be made.
 pub struct Making<'a> {
@@ -23,8 +24,11 @@ pub struct Making<'a> {
     /// Points of the sweep, or runs of the study.
     pub points: Range<usize>,
     pub threads: &'a ThreadPool,
-    /// Whether no bar shows the progress.
-    pub is_quiet: bool,
+    /// Whether a bar shows the progress.
+    pub shows_progress: bool,
+    /// What was made of an earlier table of this name, which must not stand beside the new one; `inputs` are kept.
+    pub outdated: &'a [PathBuf],
+    pub inputs: &'a [PathBuf],
 }
 
 /// A table that has been made.
@@ -52,7 +56,7 @@ impl Making<'_> {
         let Range { start, end } = self.points;
         let mut table = Growing::open(self.target, self.columns, digest.number(), start..end, is_row)?;
         let resumed = table.next - start;
-        let bar = Progress::of_points(end - start, resumed, self.is_quiet);
+        let bar = Progress::of_points(end - start, resumed, !self.shows_progress);
         table.fill(end, self.threads, &bar, worker)?;
         let (tally, first_error) = Tally::of(&table.part).map_err(Failure::part(&table.part))?;
         let made = Made { tally, rows: end - start, resumed, first_error };
@@ -60,6 +64,9 @@ impl Making<'_> {
         if let Some(failure) = made.failure(self.out, true).filter(|_| self.target.exists()) {
             table.discard()?;
             return Err(failure);
+        }
+        for file in self.outdated {
+            output::remove(file, self.inputs)?;
         }
         table.close(self.format, self.columns)?;
         Ok(made)

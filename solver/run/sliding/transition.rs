@@ -60,6 +60,7 @@ pub fn transition(
             pending.jam();
             (EventKind::Impact, None)
         }
+        // Ends the run before it comes here: `SlidingEnded::at`.
         Guard::Overturn(block) => return pending.end(RunEnd::Overturned(block)),
         Guard::Collapse(interface) => return pending.collapsed(interface),
         Guard::Close(interface) => {

@@ -159,7 +159,7 @@ fn paired(axes: &[Axis], places: &[usize], rows: usize) -> Result<Family, NoSpec
     let is_joined = rises(1.0) || rises(-1.0);
     let role = |place| if Some(place) == x_place { Role::X(positions.clone()) } else { Role::Silent };
     let roles = (0..axes.len()).map(role).collect();
-    let others = places.iter().filter(|place| Some(**place) != x_place);
+    let others = places.iter().filter(|place| x_place.is_some_and(|x_place| **place != x_place));
     let together = others.map(|place| label(&axes[*place].0)).collect();
     Ok(Family { x, is_joined, is_paired: true, together, titles: vec![String::new()], records: 1, roles })
 }
