@@ -88,7 +88,7 @@ pub(crate) struct Excess {
 mod tests {
     use super::*;
     use proptest::prelude::*;
-    use proptest::test_runner::{Config, TestRunner};
+    use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
     use std::cell::Cell;
 
     const P: f64 = 2.1;
@@ -107,7 +107,8 @@ mod tests {
         let stretches = prop::collection::vec((0.0f64..2.0, -1.0f64..1.0), 0..8);
         let strategy = (0.05f64..0.8, 0.0f64..1.5, -1.0f64..3.0, stretches, any::<bool>());
         let (cases, certain) = (256, Cell::new(0));
-        let mut runner = TestRunner::new(Config { cases, failure_persistence: None, ..Config::default() });
+        let config = Config { cases, failure_persistence: None, ..Config::default() };
+        let mut runner = TestRunner::new_with_rng(config, TestRng::deterministic_rng(RngAlgorithm::ChaCha));
         let overturns = |(balance, place, rate, pushes, pulls): (f64, f64, f64, Vec<(f64, f64)>, bool)| {
             let (one, start) = (fall(balance, 1.0), balance * place);
             // Stretches of constant acceleration. Without `pulls`, those that would pull the block outwards have none.
