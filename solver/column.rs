@@ -1,5 +1,6 @@
 //! The column: rigid blocks, base first, on one axis or displaced sideways by slides; validated, in SI units.
 
+use crate::numerics::plane::plus;
 use rocking_codegen::pattern::Interface;
 use serde::{Deserialize, Serialize};
 
@@ -531,7 +532,7 @@ fn stacks(blocks: &[Block], seats: &[Seat], gravity: f64) -> Vec<Above> {
             let lever = near - (base[0] + seat.centroid[0]);
             let height = base[1] + seat.centroid[1];
             inertia += block.inertia + block.mass * (lever * lever + height * height);
-            base = [base[0] + seat.top[0], base[1] + seat.top[1]];
+            base = plus(base, seat.top);
         }
         let stack = Stack {
             mass,

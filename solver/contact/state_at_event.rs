@@ -2,9 +2,10 @@
 
 use crate::column::Column;
 use crate::mechanics::dynamics::{ContactForce, Ground};
-use crate::mechanics::kinematics::{Factorised, Posture, Turn, Vec2, relative};
+use crate::mechanics::kinematics::{Factorised, Posture, relative, rotations};
 use crate::mechanics::links::{imposed_acceleration, link_acceleration};
 use crate::numerics::per_block::{Size, largest};
+use crate::numerics::plane::{Rotation, Vec2, minus, plus};
 use rocking_codegen::pattern::{Interface, Pattern};
 
 /// Difference of two angles or rates that counts as zero, as a share of the largest one: the rounding of sums and solves over a dozen
@@ -41,7 +42,7 @@ pub(super) struct StateAtEvent<'a, S: Size> {
     pub(super) column: &'a Column,
     /// Gaps between the blocks' angles.
     pub(super) gaps: Gaps<'a>,
-    pub(super) turns: S::List<Turn>,
+    pub(super) rotations: S::List<Rotation>,
 }
 
 /// The column in one pattern, with its masses.
@@ -54,7 +55,7 @@ pub(super) struct Mechanism<'a, S: Size> {
 impl<'a, S: Size> StateAtEvent<'a, S> {
     #[inline(always)]
     pub(super) fn new(size: S, column: &'a Column, theta: &'a [f64]) -> StateAtEvent<'a, S> {
-        StateAtEvent { size, column, gaps: Gaps::of(&theta[..size.blocks()]), turns: Turn::all(size, theta) }
+        StateAtEvent { size, column, gaps: Gaps::of(&theta[..size.blocks()]), rotations: rotations(size, theta) }
     }
 
     #[inline(always)]
@@ -64,7 +65,7 @@ impl<'a, S: Size> StateAtEvent<'a, S> {
 
     #[inline(always)]
     pub(super) fn posture(&self, states: &[Interface]) -> Posture<'a, S> {
-        Posture::of(self.size, self.column, states, &self.turns)
+        Posture::of(self.size, self.column, states, &self.rotations)
     }
 
     #[inline(always)]
@@ -137,7 +138,7 @@ impl<S: Size> Velocities<S> {
     /// These velocities minus others.
     #[inline(always)]
     pub(super) fn less(mut self, other: &Velocities<S>) -> Velocities<S> {
-        self.linear.iter_mut().zip(&*other.linear).for_each(|(a, b)| *a = [a[0] - b[0], a[1] - b[1]]);
+        self.linear.iter_mut().zip(&*other.linear).for_each(|(a, b)| *a = minus(*a, *b));
         self.angular.iter_mut().zip(&*other.angular).for_each(|(a, b)| *a -= b);
         self
     }
@@ -167,7 +168,7 @@ pub(super) fn accelerate<S: Size>(mechanism: &Mechanism<S>, omega: &[f64], groun
     let posture = &mechanism.posture;
     let mut total = imposed_acceleration(posture, &posture.link_rates(omega), ground);
     let alpha = link_acceleration(posture, &mechanism.mass, &total);
-    total.iter_mut().zip(&*posture.linear(&alpha)).for_each(|(a, b)| *a = [a[0] + b[0], a[1] + b[1]]);
+    total.iter_mut().zip(&*posture.linear(&alpha)).for_each(|(a, b)| *a = plus(*a, *b));
     let motion = posture.angular(&alpha);
     let resultants = posture.resultants(&total, &motion);
     Answer { change: Velocities { linear: total, angular: motion.clone() }, angular: motion, resultants }

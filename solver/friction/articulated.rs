@@ -7,8 +7,8 @@
 
 use super::chain::{Chain, Rates};
 use super::joint::{Joint, Slip};
-use crate::mechanics::kinematics::Vec2;
 use crate::numerics::per_block::PerBlock;
+use crate::numerics::plane::{self, Vec2};
 
 /// Motion of a block, `[x, y, angle]` with the velocity of one of its points; or the force at that point and the moment about it.
 pub type Planar = [f64; 3];
@@ -87,8 +87,8 @@ impl Articulation {
             bodies.push(Body {
                 mass: block.mass,
                 inertia: block.inertia,
-                to_centroid: from_to(carried(i), chain.centroid(i)),
-                to_next: from_to(carried(i), next),
+                to_centroid: plane::minus(chain.centroid(i), carried(i)),
+                to_next: plane::minus(next, carried(i)),
                 coordinates,
                 is_free: is_free(i),
                 slides,
@@ -225,10 +225,6 @@ impl Eliminated {
         inertia.iter_mut().zip(force).for_each(|(own, force)| *own = plus_times(*own, -force, response));
         Some(Eliminated { direction, tested, force, response, pivot })
     }
-}
-
-fn from_to(a: Vec2, b: Vec2) -> Vec2 {
-    [b[0] - a[0], b[1] - a[1]]
 }
 
 fn dot(a: Planar, b: Planar) -> f64 {

@@ -13,8 +13,9 @@
 
 use super::joint::{Configuration, Face, Joint};
 use crate::column::{Block, Column};
-use crate::mechanics::kinematics::{Vec2, lower};
+use crate::mechanics::kinematics::lower;
 use crate::numerics::per_block::PerBlock;
+use crate::numerics::plane::{Rotation, Vec2, minus, plus, scaled, swept};
 
 /// Velocities of the blocks. Where accelerations are asked for, these stand in the same places `[m/s²]`, `[rad/s²]`.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -28,7 +29,7 @@ pub struct BlockMotion {
 impl BlockMotion {
     /// This motion minus another one.
     pub fn less(&self, other: &BlockMotion) -> BlockMotion {
-        let linear = self.linear.iter().zip(&other.linear).map(|(a, b)| [a[0] - b[0], a[1] - b[1]]).collect();
+        let linear = self.linear.iter().zip(&other.linear).map(|(a, b)| minus(*a, *b)).collect();
         BlockMotion { linear, angular: self.angular.iter().zip(&other.angular).map(|(a, b)| a - b).collect() }
     }
 
@@ -88,34 +89,6 @@ impl Rates {
     }
 }
 
-/// Sine and cosine of an angle.
-#[derive(Clone, Copy, Debug)]
-pub struct Rotation {
-    sin: f64,
-    cos: f64,
-}
-
-impl Rotation {
-    /// No rotation.
-    const NONE: Rotation = Rotation { sin: 0.0, cos: 1.0 };
-
-    /// Rotation by an angle `[rad]`, clockwise positive.
-    fn by(angle: f64) -> Rotation {
-        let (sin, cos) = libm::sincos(angle);
-        Rotation { sin, cos }
-    }
-
-    /// `R(θ) (u, v)`
-    pub fn rotate(self, [u, v]: Vec2) -> Vec2 {
-        [u * self.cos + v * self.sin, v * self.cos - u * self.sin]
-    }
-
-    /// `R(-θ) (x, y)`
-    pub fn rotate_back(self, [x, y]: Vec2) -> Vec2 {
-        [x * self.cos - y * self.sin, x * self.sin + y * self.cos]
-    }
-}
-
 /// Relative position of the two blocks of an interface, and their rotations.
 #[derive(Clone, Copy, Debug)]
 pub struct Pose {
@@ -133,19 +106,6 @@ impl Pose {
         let lower = interface.checked_sub(1).map_or(Rotation::NONE, |below| Rotation::by(configuration.theta[below]));
         Pose { apart: configuration.apart[interface], lower, upper: Rotation::by(configuration.theta[interface]) }
     }
-}
-
-/// Velocity of a point of a body that turns clockwise at this rate about a point at rest; `r` leads from the point at rest to the other.
-pub(super) fn swept(rate: f64, r: Vec2) -> Vec2 {
-    [rate * r[1], -rate * r[0]]
-}
-
-pub(super) fn plus(a: Vec2, b: Vec2) -> Vec2 {
-    [a[0] + b[0], a[1] + b[1]]
-}
-
-pub(super) fn scaled(a: Vec2, factor: f64) -> Vec2 {
-    [a[0] * factor, a[1] * factor]
 }
 
 /// Geometry of an interface; vectors are in the axes of the ground.

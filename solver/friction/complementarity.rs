@@ -10,14 +10,14 @@
 //! Where the direction `ε` of a slip is given, the force is `λ (across - ε μ along)`. Impacts always have a solution, which Lemke's method finds;
 //! accelerations may have none. The solution is only a guess for the search, which examines it like any other: rounding decides critical contacts.
 
-use super::chain::{Chain, Rates, plus, scaled};
+use super::chain::{Chain, Rates};
 use super::contact_problem::{Question, Touch};
 use super::gaps::{self, Corner};
 use super::joint::{Configuration, Face, Joint, Sign, Slip, face};
 use crate::column::Column;
-use crate::mechanics::kinematics::Vec2;
 use crate::numerics::lemke::lemke;
 use crate::numerics::per_block::PerBlock;
+use crate::numerics::plane::{Vec2, minus, plus, scaled};
 use smallvec::SmallVec;
 
 /// Change of a gap or a slide that counts as none, as a share of the largest change without contact forces.
@@ -106,7 +106,7 @@ fn free_change(chain: &Chain, now: &Configuration, question: &Question, corner: 
             let foot = scaled(chain.to_centroid(interface), upper * upper);
             let top =
                 below.map_or([ground.x, ground.gravity], |below| scaled(chain.centroid_to_top(below), -lower * lower));
-            let apart = [foot[0] - top[0], foot[1] - top[1]];
+            let apart = minus(foot, top);
             gaps::slide_and_gap_accelerations(
                 chain,
                 [chain.apart_rate(interface, &rates), apart],

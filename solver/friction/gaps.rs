@@ -1,9 +1,9 @@
 //! Gaps: a corner of one block seen from the face of the other that it may stand on (docs/book/model.md, section 15).
 
-use super::chain::{Chain, Pose, Rates, Rotation, plus, scaled, swept};
+use super::chain::{Chain, Pose, Rates};
 use super::joint::{Face, Sign};
 use crate::column::Column;
-use crate::mechanics::kinematics::Vec2;
+use crate::numerics::plane::{Rotation, Vec2, plus, scaled, swept};
 
 /// A corner at an interface (from zero), and the face of the other block that the corner may stand on. For the lower face it is a corner of the upper
 /// block, for the upper face a corner of the lower block.

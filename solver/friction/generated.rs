@@ -4,13 +4,14 @@
 //! contact is one point: at `p` from the middle of the lower face, `p - u` from the middle of the upper one (docs/book/model.md, section 1). States
 //! without a translation run on the equations of displaced blocks.
 
-use super::chain::{Rates, plus};
+use super::chain::Rates;
 use super::joint::{Configuration, Face, Joint, Slip};
 use super::rows::{self, Coordinate, coordinates};
 use crate::column::Column;
 use crate::mechanics::dynamics::Ground;
 use crate::mechanics::generated::{MovingEquations, MovingLists, moving};
 use crate::mechanics::mode::Mode;
+use crate::numerics::plane::{Rotation, plus};
 
 /// The accelerations of a set of states on generated equations.
 pub struct Generated {
@@ -189,7 +190,8 @@ impl Moving {
             self.slide[translation.interface] = values[translation.coordinate];
         }
         for (link, &place) in self.angles.iter().enumerate() {
-            (self.lists.sin[link], self.lists.cos[link]) = libm::sincos(values[place]);
+            let Rotation { sin, cos } = Rotation::by(values[place]);
+            (self.lists.sin[link], self.lists.cos[link]) = (sin, cos);
             self.lists.omega[link] = rates[place];
         }
         for (each, translation) in self.translations.iter().enumerate() {

@@ -9,7 +9,7 @@ use super::guards::{Guard, TIP_SLACK, cone_slack};
 use super::joint::{Face, Joint, Sign, Slip};
 use super::series::Series;
 use crate::column::Column;
-use crate::mechanics::kinematics::Vec2;
+use crate::numerics::plane::Vec2;
 use crate::numerics::polynomial::bernstein::COEFFICIENTS;
 use crate::numerics::polynomial::powers::Powers;
 use std::cell::OnceCell;

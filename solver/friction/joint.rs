@@ -11,8 +11,9 @@
 //! between their middles.
 
 use crate::column::Column;
-use crate::mechanics::kinematics::{Vec2, lower, relative};
+use crate::mechanics::kinematics::{lower, relative};
 use crate::numerics::per_block::PerBlock;
+use crate::numerics::plane::{Rotation, Vec2, minus};
 use rocking_codegen::joints::{self, Carrier, Joints};
 use rocking_codegen::pattern::{Interface, Pattern};
 use std::ops::RangeInclusive;
@@ -168,14 +169,14 @@ impl Configuration {
     pub fn place(&mut self, column: &Column, [x, y]: [&[f64]; 2], [vx, vy]: [&[f64]; 2]) {
         let (mut top, mut top_rate) = ([0.0, 0.0], [0.0, 0.0]);
         for (i, block) in column.blocks().iter().enumerate() {
-            let ((sin, cos), rate) = (libm::sincos(self.theta[i]), self.omega[i]);
+            let (Rotation { sin, cos }, rate) = (Rotation::by(self.theta[i]), self.omega[i]);
             // A point of the axis at this height above the centroid, and its velocity.
             let point = |height: f64| [x[i] + height * sin, y[i] + height * cos];
             let velocity = |height: f64| [vx[i] + rate * height * cos, vy[i] - rate * height * sin];
             let (foot, foot_rate) = (point(-block.centroid_height), velocity(-block.centroid_height));
             self.joints[i] = Joint::Free;
-            self.apart[i] = [foot[0] - top[0], foot[1] - top[1]];
-            self.apart_rate[i] = [foot_rate[0] - top_rate[0], foot_rate[1] - top_rate[1]];
+            self.apart[i] = minus(foot, top);
+            self.apart_rate[i] = minus(foot_rate, top_rate);
             let above = 2.0 * block.half_height - block.centroid_height;
             (top, top_rate) = (point(above), velocity(above));
         }

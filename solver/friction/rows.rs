@@ -14,8 +14,8 @@ use super::articulated::{Articulation, Planar};
 use super::chain::{BlockMotion, Chain, Rates};
 use super::joint::{Configuration, Joint, Slip};
 use crate::mechanics::dynamics::{ContactForce, Ground};
-use crate::mechanics::kinematics::Vec2;
 use crate::numerics::per_block::PerBlock;
+use crate::numerics::plane::{Vec2, plus};
 
 /// A coordinate of a configuration.
 #[derive(Clone, Debug, PartialEq)]
@@ -189,7 +189,7 @@ fn imposed(chain: &Chain, velocities: &Rates, ground: Ground) -> PerBlock<Vec2> 
 
 fn accelerated(chain: &Chain, points: &[Vec2], accelerations: Rates, imposed: &[Vec2]) -> Answer {
     let own = chain.motion(&accelerations);
-    let linear = own.linear.iter().zip(imposed).map(|(a, b)| [a[0] + b[0], a[1] + b[1]]).collect();
+    let linear = own.linear.iter().zip(imposed).map(|(a, b)| plus(*a, *b)).collect();
     answer(chain, points, accelerations, BlockMotion { linear, angular: own.angular })
 }
 
@@ -203,7 +203,7 @@ fn answer(chain: &Chain, points: &[Vec2], motion: Rates, change: BlockMotion) ->
         let load = change.linear[i].map(|a| block.mass * a);
         let about = |at: Vec2, force: Vec2| (at[1] - point[1]) * force[0] - (at[0] - point[0]) * force[1];
         moment += about(above, force) + about(chain.centroid(i), load) + block.inertia * change.angular[i];
-        (force, above) = ([force[0] + load[0], force[1] + load[1]], point);
+        (force, above) = (plus(force, load), point);
         let dot = |axis: Vec2| axis[0] * force[0] + axis[1] * force[1];
         contacts[i] = ContactForce { normal: dot(across), tangential: dot(along), moment };
     }

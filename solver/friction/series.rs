@@ -28,6 +28,7 @@ use super::rows::{Coordinate, coordinates};
 use crate::column::Column;
 use crate::numerics::elimination::Factors;
 use crate::numerics::ode::taylor::reciprocal;
+use crate::numerics::plane::Rotation;
 use crate::numerics::polynomial::bernstein::COEFFICIENTS;
 use parts::{Level, Link, NO_NUMBERS, NO_VECTORS, Translation, Vectors, across, in_axes, place_of};
 use wide::f64x2;
@@ -103,7 +104,7 @@ impl Series {
             let Some(place) = link.coordinate else { continue };
             (link.theta[0], link.theta[1]) = (values[place], rates[place]);
             link.rate[0] = f64x2::splat(rates[place]);
-            let (sin, cos) = libm::sincos(values[place]);
+            let Rotation { sin, cos } = Rotation::by(values[place]);
             link.set_direction(0, f64x2::new([cos, -sin]));
             let turning = link.turning(1, 0);
             link.set_direction(1, turning);

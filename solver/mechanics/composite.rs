@@ -5,6 +5,7 @@
 
 use super::program::{Geometry, InterfaceEquations};
 use crate::column::{Block, Column, Seat};
+use crate::numerics::plane::plus;
 use rocking_codegen::pattern::Pattern;
 use std::ops::Range;
 
@@ -42,7 +43,7 @@ impl Body {
         for (Block { mass, inertia, .. }, Seat { centroid, top, .. }) in parts() {
             let lever = [0, 1].map(|axis| base[axis] + centroid[axis] - whole.centroid[axis]);
             whole.inertia += inertia + mass * (lever[0] * lever[0] + lever[1] * lever[1]);
-            base = [base[0] + top[0], base[1] + top[1]];
+            base = plus(base, *top);
         }
         whole
     }

@@ -4,11 +4,12 @@
 //! They share no formula with the generator: here, a Newton-Euler assembly over blocks with a Cholesky solve; there, derivatives of energies.
 
 use super::dynamics::{ContactForce, Dynamics, Energy, Ground, Interfaces};
-use super::kinematics::{Posture, Vec2};
+use super::kinematics::Posture;
 use super::links::{imposed_acceleration, link_acceleration, moments_and_levers};
 use super::mode::Mode;
 use crate::column::Column;
 use crate::numerics::per_block::PerBlock;
+use crate::numerics::plane::{Vec2, plus};
 use rocking_codegen::pattern::Pattern;
 
 /// A mode of a column on hand-written dynamics.
@@ -137,7 +138,7 @@ impl Dynamics for GenericMode {
         let alpha = &derivative[self.dof..];
         let mut total = imposed_acceleration(&posture, &state[self.dof..], ground);
         for (a, own) in total.iter_mut().zip(&posture.linear(alpha)) {
-            *a = [a[0] + own[0], a[1] + own[1]];
+            *a = plus(*a, *own);
         }
         result.copy_from_slice(&posture.resultants(&total, &posture.angular(alpha)));
     }

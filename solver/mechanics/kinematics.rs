@@ -9,11 +9,10 @@
 use super::dynamics::ContactForce;
 use crate::column::{Block, Column};
 use crate::numerics::per_block::{Any, Size};
-use crate::numerics::sines;
+use crate::numerics::plane::{Rotation, minus, plus};
 use rocking_codegen::pattern::{Interface, Pattern};
 
-/// A vector of the plane, `[x, y]`.
-pub type Vec2 = [f64; 2];
+pub use crate::numerics::plane::Vec2;
 
 /// Angle, rate or acceleration of the block below an interface; zero below the first one.
 pub(crate) fn lower(values: &[f64], interface: usize) -> f64 {
@@ -34,8 +33,8 @@ pub struct Posture<'a, S: Size = Any> {
     pub link: S::List<usize>,
     /// Number of links that move.
     pub dof: usize,
-    /// Turn of the block (or ground) below each interface, length N.
-    lower: S::List<Turn>,
+    /// Rotation of the block (or ground) below each interface, length N.
+    lower: S::List<Rotation>,
     /// Centre of each contact `[m]`, length N.
     contact_centre: S::List<Vec2>,
     /// Centroids `[m]`, length N.
@@ -45,47 +44,14 @@ pub struct Posture<'a, S: Size = Any> {
     lever: S::Table<Vec2>,
 }
 
-/// Sine and cosine of an angle.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Turn {
-    pub sin: f64,
-    pub cos: f64,
-}
-
-impl Turn {
-    /// The turn of the ground: angle zero.
-    const NONE: Turn = Turn { sin: 0.0, cos: 1.0 };
-
-    pub fn new(angle: f64) -> Turn {
-        let (sin, cos) = sines::sin_cos(angle);
-        Turn { sin, cos }
+/// Rotations of blocks by these angles `[rad]`. Equal angles of neighbours, as in one link, are evaluated once.
+pub(crate) fn rotations<S: Size>(size: S, theta: &[f64]) -> S::List<Rotation> {
+    let mut rotations = size.list(Rotation::NONE);
+    for index in 0..size.blocks() {
+        let is_joined = index > 0 && theta[index] == theta[index - 1];
+        rotations[index] = if is_joined { rotations[index - 1] } else { Rotation::by(theta[index]) };
     }
-
-    /// Turns of blocks by these angles `[rad]`. Equal angles of neighbours, as in one link, are evaluated once.
-    pub fn all<S: Size>(size: S, theta: &[f64]) -> S::List<Turn> {
-        let mut turns = size.list(Turn::NONE);
-        for index in 0..size.blocks() {
-            let is_joined = index > 0 && theta[index] == theta[index - 1];
-            turns[index] = if is_joined { turns[index - 1] } else { Turn::new(theta[index]) };
-        }
-        turns
-    }
-
-    /// `R(θ)(u, v)`
-    #[inline(always)]
-    fn rotate(self, [u, v]: Vec2) -> Vec2 {
-        [u * self.cos + v * self.sin, v * self.cos - u * self.sin]
-    }
-}
-
-#[inline(always)]
-fn plus(a: Vec2, b: Vec2) -> Vec2 {
-    [a[0] + b[0], a[1] + b[1]]
-}
-
-#[inline(always)]
-fn minus(a: Vec2, b: Vec2) -> Vec2 {
-    [a[0] - b[0], a[1] - b[1]]
+    rotations
 }
 
 impl<'a> Posture<'a> {
@@ -96,22 +62,27 @@ impl<'a> Posture<'a> {
     /// If pattern or angles are fewer than the blocks; more are not read.
     pub fn new(column: &'a Column, pattern: &Pattern, theta: &[f64]) -> Posture<'a> {
         let size = Any(column.len());
-        Posture::of(size, column, &pattern.0, &Turn::all(size, theta))
+        Posture::of(size, column, &pattern.0, &rotations(size, theta))
     }
 }
 
 impl<'a, S: Size> Posture<'a, S> {
-    /// The geometry with these states of the interfaces and these turns of the blocks.
-    pub(crate) fn of(size: S, column: &'a Column, states: &[Interface], turns: &S::List<Turn>) -> Posture<'a, S> {
+    /// The geometry with these states of the interfaces and these rotations of the blocks.
+    pub(crate) fn of(
+        size: S,
+        column: &'a Column,
+        states: &[Interface],
+        rotations: &S::List<Rotation>,
+    ) -> Posture<'a, S> {
         let (mut link, mut dof) = (size.list(0), 0);
         let (mut pivots, mut centroid) = (size.list([0.0, 0.0]), size.list([0.0, 0.0]));
-        let (mut lower, mut contact_centre) = (size.list(Turn::NONE), size.list([0.0, 0.0]));
+        let (mut lower, mut contact_centre) = (size.list(Rotation::NONE), size.list([0.0, 0.0]));
         let (seats, states) = (&column.seats()[..size.blocks()], &states[..size.blocks()]);
-        let (mut centre, mut below) = ([seats[0].on_lower, 0.0], Turn::NONE);
+        let (mut centre, mut below) = ([seats[0].on_lower, 0.0], Rotation::NONE);
         for index in 0..size.blocks() {
             contact_centre[index] = centre;
             lower[index] = below;
-            let own = turns[index];
+            let own = rotations[index];
             let mut base = centre;
             if states[index].is_open() {
                 let offset = f64::from(states[index].sign()) * seats[index].half_width;
@@ -298,7 +269,7 @@ impl<'a, S: Size> Posture<'a, S> {
     pub fn resultants(&self, linear: &[Vec2], angular: &[f64]) -> S::List<ContactForce> {
         let blocks = self.blocks();
         self.size.list_of(|interface| {
-            let (centre, Turn { sin, cos }) = (self.contact_centre[interface], self.lower[interface]);
+            let (centre, Rotation { sin, cos }) = (self.contact_centre[interface], self.lower[interface]);
             let (mut force, mut moment) = ([0.0, 0.0], 0.0);
             for index in interface..self.size.blocks() {
                 let block = &blocks[index];
@@ -434,7 +405,7 @@ pub fn outlines(column: &Column, pattern: &Pattern, theta: &[f64]) -> Vec<Outlin
     let outline = |(index, block): (usize, &Block)| {
         let (bottom, top) = (block.bottom_half_width, block.top_half_width);
         let (below, above) = (-block.centroid_height, 2.0 * block.half_height - block.centroid_height);
-        let corner = |offset: Vec2| plus(posture.centroid[index], Turn::new(theta[index]).rotate(offset));
+        let corner = |offset: Vec2| plus(posture.centroid[index], Rotation::by(theta[index]).rotate(offset));
         let state = pattern.0[index];
         let offset = column.pivot_offset(index, state);
         let pivot = plus(posture.contact_centre[index], posture.lower[index].rotate([offset, 0.0]));
@@ -500,7 +471,7 @@ mod tests {
                         ([0.5 * (left[0] + right[0]), 0.5 * (left[1] + right[1])], theta[index - 1])
                     }
                 };
-                let along_face = |point: Vec2| Turn::new(-angle).rotate(minus(point, centre));
+                let along_face = |point: Vec2| Rotation::by(-angle).rotate(minus(point, centre));
                 let (half_width, contact) = (sizes[index].0, column.contact_half_width(index));
                 let [left, right] = [blocks[index].corners[0], blocks[index].corners[1]].map(along_face);
                 let sign = f64::from(state.sign());

@@ -1,9 +1,10 @@
 //! Links: rigid groups of blocks, their first moments, and their angular accelerations under imposed accelerations.
 
 use super::dynamics::Ground;
-use super::kinematics::{Factorised, Posture, Vec2};
+use super::kinematics::{Factorised, Posture};
 use crate::column::Column;
 use crate::numerics::per_block::Size;
+use crate::numerics::plane::Vec2;
 use rocking_codegen::pattern::Pattern;
 
 /// Links, base first, in their axes: first moment of all that a link carries about its pivot `[kg m]`, and lever to the next pivot `[m]`.

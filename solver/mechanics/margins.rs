@@ -13,12 +13,12 @@
 //! take two convolutions. The first two, with a bound of all later ones from the sizes of the terms of `c̈, s̈`, exclude an opening in most steps.
 
 use super::harmonics::Harmonics;
-use super::kinematics::Vec2;
 use super::links::moments_and_levers;
 use super::pendulum::Waves;
 use crate::column::Column;
 use crate::numerics::ode::taylor::{MAX_ORDER, Taylor, TermSizes};
 use crate::numerics::per_block::PerBlock;
+use crate::numerics::plane::{Vec2, minus};
 use crate::numerics::polynomial::powers::Powers;
 use crate::numerics::polynomial::track::Track;
 use crate::numerics::state_vector::StateVector;
@@ -286,10 +286,10 @@ impl Corners {
                     let next = links.iter().position(|own| *own == link + 1).unwrap_or(j);
                     let [u, v] = contact(next);
                     let place = [pivot(next) + u, v];
-                    top = [place[0] - corner[0], place[1] - corner[1]];
+                    top = minus(place, corner);
                     place
                 };
-                let arm = [place[0] - corner[0], place[1] - corner[1]];
+                let arm = minus(place, corner);
                 base = [base[0] + block.mass * arm[0], base[1] + block.mass * arm[1]];
                 own[0] += block.mass * (arm[1] * place[0] - arm[0] * place[1]);
                 own[1] += block.mass * (arm[0] * place[0] + arm[1] * place[1]);

@@ -1,4 +1,4 @@
-//! Numerical methods that know nothing of blocks: scalars and sines, polynomials, guards, complementarity, random numbers, methods of integration.
+//! Numerical methods that know nothing of blocks: scalars and sines, vectors of the plane, polynomials, guards, complementarity, random numbers, methods of integration.
 //!
 //! Nothing here imports from another room of the library.
 
@@ -7,6 +7,7 @@ pub mod guards;
 pub mod lemke;
 pub mod ode;
 pub mod per_block;
+pub mod plane;
 pub mod polynomial;
 pub mod random;
 pub mod scalar;

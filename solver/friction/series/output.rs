@@ -3,8 +3,8 @@
 use super::parts::{Link, NO_VECTORS, Translation, Vectors, in_axes};
 use super::{InAxes, Series};
 use crate::friction::joint::{Face, Joint};
-use crate::mechanics::kinematics::Vec2;
 use crate::numerics::ode::taylor::reciprocal;
+use crate::numerics::plane::Vec2;
 use wide::f64x2;
 
 impl Series {

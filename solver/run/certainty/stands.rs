@@ -56,8 +56,8 @@
 //! rest. Runs that end while the ground moves are not decided in this way: a column that stands until then may overturn soon after.
 
 use crate::column::Column;
-use crate::mechanics::kinematics::Turn;
 use crate::numerics::per_block::PerBlock;
+use crate::numerics::plane::Rotation;
 use crate::scene::{Scene, Wanted};
 use rocking_ground::Lookahead;
 use std::f64::consts::FRAC_PI_2;
@@ -126,9 +126,9 @@ impl OutcomeBounds {
 
     /// Potential energy above rest of blocks turned like this, base first: `V` `[J]`. It is summed term by term, since a difference of energies
     /// would be rounding where a light block stands on heavy ones.
-    pub fn potential(&self, turns: &[Turn]) -> f64 {
+    pub fn potential(&self, rotations: &[Rotation]) -> f64 {
         let mut below = 0.0;
-        let terms = turns.iter().zip(&self.weights).map(|(Turn { sin, cos }, [lifted, lowered, displaced])| {
+        let terms = rotations.iter().zip(&self.weights).map(|(Rotation { sin, cos }, [lifted, lowered, displaced])| {
             let across = sin - std::mem::replace(&mut below, *sin);
             lifted * across.abs() - lowered * (sin * sin / (1.0 + cos)) - displaced * across
         });
@@ -206,9 +206,9 @@ mod tests {
             let blocks = masses.iter().enumerate().map(|(i, mass)| Block::with_mass(0.5 - 0.1 * i as f64, 0.8, *mass));
             let mut scene = Scene::new(Column::new(blocks.collect(), 9.81).expect("positive sizes"));
             scene.options.wanted = crate::Wanted::Outcome;
-            let turns: Vec<Turn> = theta.iter().map(|angle| Turn::new(*angle)).collect();
+            let rotations: Vec<Rotation> = theta.iter().map(|angle| Rotation::by(*angle)).collect();
             let outcome_bounds = OutcomeBounds::new(&scene).expect("nothing but the outcome is requested");
-            (outcome_bounds.potential(&turns), potential(&scene.column, theta))
+            (outcome_bounds.potential(&rotations), potential(&scene.column, theta))
         };
         for theta in [[0.1, 0.2, -0.3], [-0.2, 0.1, 0.4], [0.3, 0.25, 0.1], [-0.1, -0.7, -0.2]] {
             let (own, posture) = of([3.0, 2.0, 1.0], &theta);

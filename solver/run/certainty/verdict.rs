@@ -3,7 +3,7 @@
 use super::falls::Fall;
 use super::stands::OutcomeBounds;
 use crate::column::Column;
-use crate::mechanics::kinematics::{Posture, Turn};
+use crate::mechanics::kinematics::{Posture, rotations};
 use crate::numerics::per_block::{PerBlock, for_size};
 use crate::run::problem::Problem;
 use crate::run::state::State;
@@ -51,10 +51,10 @@ pub(crate) fn stands(
 /// Energy of a column above that at rest `[J]`.
 fn above_rest(bounds: &OutcomeBounds, column: &Column, pattern: &Pattern, theta: &[f64], omega: &[f64]) -> f64 {
     for_size!(column.len(), size => {
-        let turns = Turn::all(size, theta);
-        let posture = Posture::of(size, column, &pattern.0, &turns);
+        let own = rotations(size, theta);
+        let posture = Posture::of(size, column, &pattern.0, &own);
         let kinetic = posture.kinetic_energy(&posture.linear(&posture.link_rates(omega)), omega);
-        kinetic + bounds.potential(&turns)
+        kinetic + bounds.potential(&own)
     })
 }
 

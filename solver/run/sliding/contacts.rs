@@ -5,7 +5,7 @@ use crate::friction::chain::{Chain, Pose, Rates};
 use crate::friction::contact_problem::Touch;
 use crate::friction::gaps::{self, Corner};
 use crate::friction::joint::{Configuration, Face, Joint, Sign, Slip, face};
-use crate::mechanics::kinematics::Vec2;
+use crate::numerics::plane::Vec2;
 
 /// Gap that is rounding, as a share of the column's size; gap of angles that is rounding `[rad]`.
 const GAP_SHARE: f64 = 1e-12;

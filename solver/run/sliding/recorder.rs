@@ -11,8 +11,8 @@ use crate::friction::chain::{BlockMotion, Chain, Rates};
 use crate::friction::contact_problem::Coefficients;
 use crate::friction::joint::{Configuration, Face, Joint, Slip};
 use crate::mechanics::dynamics::{ContactForce, Energy};
-use crate::mechanics::kinematics::Vec2;
 use crate::numerics::per_block::PerBlock;
+use crate::numerics::plane::Vec2;
 use crate::response::{
     BlockAtEvent, BlockState, ContactTimes, Event, Impulse, ModeName, Response, Sample, SlidingReport, StopReason, Work,
 };
