@@ -91,7 +91,7 @@ pub use row_times::RowTimes;
 #[doc(hidden)]
 pub use run::Skips;
 pub use run::certainty::stands as outcome;
-pub use run::{Simulator, SolveError, simulate, simulate_observed};
+pub use run::{ContactAtRest, Simulator, SolveError, UnderPeak, simulate, simulate_observed};
 pub use scene::{
     DynamicsSource, Initial, Look, Method, OutputColumn, Restitution, Scene, SceneError, SceneErrors, SolveOptions,
     Wanted,

@@ -10,7 +10,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use rocking::trust::{Trust, TrustOptions, follow_run_observed};
-use rocking::{Motion, Wanted, simulate_observed};
+use rocking::{ContactAtRest, Motion, UnderPeak, Wanted, simulate_observed};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -187,6 +187,28 @@ impl Scene {
         list("p", rocking::Stack::frequency_parameter)?;
         list("uplift_acceleration", rocking::Stack::uplift_acceleration)?;
         list("housner_ratio", rocking::Stack::housner_ratio)?;
+        Ok(columns)
+    }
+
+    /// What the ground motion does to each contact of the column at rest, base first, a list each; not a number where there is none.
+    fn contacts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let contacts = py.detach(|| self.scene.contacts_at_rest());
+        let columns = PyDict::new(py);
+        let list = |name: &str, of: fn(&ContactAtRest) -> Option<f64>| {
+            let numbers = contacts.iter().map(|contact| of(contact).unwrap_or(f64::NAN));
+            columns.set_item(name, numbers.collect::<Vec<f64>>())
+        };
+        list("coefficient", |contact| contact.coefficient)?;
+        list("slides_at", |contact| contact.slides_at)?;
+        list("opens_at", |contact| Some(contact.opens_at))?;
+        list("slides_from", |contact| contact.slides_from)?;
+        list("opens_from", |contact| contact.opens_from)?;
+        list("weightless_from", |contact| contact.weightless_from)?;
+        columns.set_item(
+            "at_pga",
+            contacts.iter().map(|contact| contact.at_pga.map(UnderPeak::name)).collect::<Vec<_>>(),
+        )?;
+        list("coefficient_to_rock", |contact| contact.coefficient_to_rock)?;
         Ok(columns)
     }
 

@@ -43,6 +43,17 @@ def test_a_column_is_cut_and_measured() -> None:
         rk.Block(width=1.0, half_width=0.5, height=1.0)
 
 
+def test_contacts_of_a_column_at_rest_say_what_gives_way_first() -> None:
+    """A cube opens at 1 g and slides at 0.6 g, which the half-sine reaches when its sine is two thirds."""
+    cube, shaken = [rk.Block(half_width=0.5, half_height=0.5)], rk.pulse("half-sine", amplitude_g=0.9, omega=2.0)
+    contact = rk.Scene(cube, shaken, friction=0.6).contacts.loc[1]
+    assert (contact.slides_at, contact.opens_at) == pytest.approx((0.6 * 9.81, 9.81))
+    assert contact.slides_from == pytest.approx(np.arcsin(0.6 / 0.9) / 2.0, abs=1e-12) and contact.at_pga == "slides"
+    assert np.isnan(contact.opens_from) and np.isnan(contact.coefficient_to_rock)
+    held = rk.Scene(cube, shaken).contacts
+    assert held.slides_at.isna().all() and held.at_pga.to_list() == ["rests"] and held.index.name == "interface"
+
+
 def test_a_scene_goes_to_text_and_back() -> None:
     scene = rk.Scene(
         COLUMN,

@@ -18,6 +18,9 @@ mod rest;
 mod rest_guards;
 mod start_from_rest;
 
+// What the ground motion does to contacts of a column at rest; nothing is run.
+mod contacts_at_rest;
+
 mod expected_event;
 mod force_cache;
 mod multi_sample_step;
@@ -42,6 +45,7 @@ mod sliding;
 
 mod diagnostics;
 
+pub use contacts_at_rest::{ContactAtRest, UnderPeak};
 pub use error::SolveError;
 pub use problem::Skips;
 pub use simulator::{Simulator, simulate, simulate_observed};

@@ -7,7 +7,6 @@ use super::rest_guards::{GroundWithBounds, RestGuard, SIDES, arm, first_zero};
 use crate::column::Column;
 use crate::friction::guards::{Guard, TIP_SLACK, cone_slack};
 use crate::friction::search::GUARD_SLACK_SHARE;
-use crate::scene::Scene;
 use rocking_codegen::pattern::Interface;
 use rocking_ground::{Piece, Segment};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -104,52 +103,6 @@ fn start_before(problem: &Problem, segment: &Segment, from: f64, until: f64) -> 
     })
 }
 
-impl Scene {
-    /// When the ground motion first opens each interface of the column at rest `[s]`, base first, if none of the others opens or slides before. `None`
-    /// if it does not open up to the end of the run. Both components of the ground motion count.
-    ///
-    /// ```
-    /// use rocking::{Column, Motion, Scene};
-    /// let mut scene = Scene::new(Column::equal_blocks(1, 0.5, 0.5, 1.0, 9.81)?);
-    /// scene.excitation.horizontal = Some(Motion::Rectangular { amplitude: 0.8 * 9.81, start: 0.5, duration: 1.0 });
-    /// assert_eq!(scene.openings_at_rest(), [None]); // a cube opens at 1 g
-    /// scene.excitation.vertical = Some(Motion::Rectangular { amplitude: -0.4 * 9.81, start: 0.7, duration: 1.0 });
-    /// assert_eq!(scene.openings_at_rest(), [Some(0.7)]);
-    /// # Ok::<(), rocking::ColumnError>(())
-    /// ```
-    pub fn openings_at_rest(&self) -> Vec<Option<f64>> {
-        self.first_below_zero(|interface, side| RestGuard::corner(&self.column, interface, side))
-    }
-
-    /// When the ground motion first slides each interface of the column at rest `[s]`, base first, if none of the others opens or slides before. `None`
-    /// if it does not slide up to the end of the run, or the scene has no friction or is not valid. Both components of the ground motion count.
-    pub fn slips_at_rest(&self) -> Vec<Option<f64>> {
-        // Lists of coefficients of another length are a fault of the scene.
-        let Some(friction) = self.friction.as_ref().filter(|_| self.check().is_ok()) else {
-            return vec![None; self.column.len()];
-        };
-        let fixed = friction.per_interface(self.column.len()).fixed;
-        self.first_below_zero(|interface, side| RestGuard::cone(fixed[interface], side))
-    }
-
-    /// For each interface, the first time at rest at which the guard of either side is below zero `[s]`; `None` if there is none.
-    fn first_below_zero(&self, guard: impl Fn(usize, Interface) -> RestGuard) -> Vec<Option<f64>> {
-        let (segments, gravity) = (self.excitation.segments(self.options.t_end), self.column.gravity());
-        let in_segment = |segment: &Segment, interface: usize| {
-            let guards = SIDES.map(|side| guard(interface, side));
-            let at_start = GroundWithBounds::at(segment, gravity, segment.start);
-            // Where the ground jumps, a guard may be below zero without having fallen there; less than rounding leaves the column at rest.
-            if guards.iter().any(|guard| at_start.value(*guard) < -at_start.rounding(*guard)) {
-                return Some(segment.start);
-            }
-            let named = || guards.into_iter().map(|guard| (guard, ()));
-            first_zero(segment, gravity, [segment.start, segment.end], named).map(|(t, ())| t)
-        };
-        let first = |interface| segments.iter().find_map(|segment| in_segment(segment, interface));
-        (0..self.column.len()).map(first).collect()
-    }
-}
-
 /// The guards of a column at rest with limited friction, with the coefficients `fixed` of static friction: corners, slides, and the weight, which vanishes
 /// in all contacts at once. They have the slack of the guards of forces in motion: what starts the column does not count as rounding for the contact
 /// problem that decides how it starts.
@@ -215,6 +168,7 @@ fn least_margin(problem: &Problem, segment: usize, t: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Scene;
 
     /// The centre of gravity of the upper block is beyond the end of its contact; an acceleration of the ground holds it, until vertical motion outweighs that.
     #[test]
@@ -232,7 +186,7 @@ mod tests {
             scene.excitation.vertical = Some(Motion::SinePulse { amplitude, omega, start });
             // Levers about the end of the contact: (slide - 0.5) (g + ÿ_g) = 0.5 a.
             let exact = start + libm::asin((0.5 * push / (slide - 0.5) - 9.81) / amplitude) / omega;
-            let found = scene.openings_at_rest()[1].expect("it starts");
+            let found = scene.contacts_at_rest()[1].opens_from.expect("it starts");
             assert!((found - exact).abs() < 1e-12, "{found} for {exact}");
         }
     }

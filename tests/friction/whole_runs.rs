@@ -18,7 +18,7 @@ fn a_stack_that_does_not_stand_by_itself_is_past_its_balance() {
     let mut scene = scene(blocks, vec![2.0; 2]);
     scene.column = scene.column.displaced(vec![0.0, 0.35]).expect("the faces overlap");
     scene.options.t_end = 3.0;
-    assert_eq!(scene.openings_at_rest()[1], Some(0.0));
+    assert_eq!(scene.contacts_at_rest()[1].opens_from, Some(0.0));
     let response = run(&scene);
     assert_eq!((response.status, response.lost_block()), (StopReason::Overturned, Some(2)));
     assert_eq!(response.peaks(&scene.column)[1], f64::INFINITY);

@@ -1,5 +1,6 @@
 //! `rocking check`: the content of a scene, a sweep or a study, and its consequences before anything is run.
 
+mod contacts;
 mod scene;
 mod study;
 mod sweep;

@@ -471,6 +471,25 @@ class Scene:
         """Warnings about its records, and about numbers that are likely missing or in another unit, a sentence each."""
         return self._compiled.warnings
 
+    @property
+    def contacts(self) -> pd.DataFrame:
+        """What the ground motion does to each contact of the column at rest, base first, a row each: which slides or opens first, and when. Nothing is run.
+
+        Each contact is taken by itself, with the stack above as one body and the others closed. ``coefficient`` is that of static friction; ``slides_at`` and
+        ``opens_at`` [m/s²] are horizontal accelerations of the ground, without vertical motion, at which the contact slides, and opens on the side on which it
+        takes less. ``slides_from`` and ``opens_from`` [s] are the first times at which this ground motion, both components, does so, and
+        ``weightless_from`` [s] that at which the vertical one takes all weight. ``at_pga``: whether the stack ``rests``, ``slides``, ``rocks`` or
+        ``slides-and-rocks`` under the largest horizontal acceleration, and ``coefficient_to_rock`` the least coefficient with which it would rock without sliding;
+        neither where the ground moves vertically or the stack is displaced. What does not happen is not a number.
+
+        >>> from rocking import pulse
+        >>> statue = Scene([Block(half_width=0.25, half_height=1.0)], pulse("half-sine", amplitude_g=1.0, period=1.0), friction=0.5)
+        >>> print(statue.contacts.at_pga[1], round(statue.contacts.coefficient_to_rock[1], 5))
+        rocks 0.41558
+        """
+        contacts = self._compiled.contacts()
+        return pd.DataFrame(contacts, index=pd.RangeIndex(1, len(contacts["opens_at"]) + 1, name="interface"))
+
     def save(self, file: str | os.PathLike[str]) -> None:
         """Writes the scene file.
 
