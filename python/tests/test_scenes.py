@@ -310,6 +310,31 @@ def test_a_record_that_is_not_there_is_a_file_not_found(tmp_path: Path) -> None:
     assert station.value.record and not isinstance(station.value, FileNotFoundError)
 
 
+@pytest.mark.parametrize(
+    "error",
+    [
+        rk.SceneError("message", "file", 3, "key", "problem", "remedy", "record"),
+        rk.MissingFileError("message", "file", 3, "key", "problem", "remedy", "record"),
+        rk.MissingFileError("message", "file"),
+        rk.RecordError("message", "file"),
+        rk.SolveError("message", 1.5),
+        rk.StudyError("message"),
+        rk.FolderError("message"),
+    ],
+    ids=lambda error: type(error).__name__,
+)
+def test_errors_come_back_from_workers(error: rk.RockingError) -> None:
+    """Workers of distributed pickle errors with their tracebacks; errors that are several things at once did not come back."""
+    support = pytest.importorskip("tblib.pickling_support")
+    with pytest.raises(type(error)) as raised:
+        raise error
+    support.install(raised.value)
+    back = pickle.loads(pickle.dumps(raised.value))
+    assert type(back) is type(error) and str(back) == "message" and back.args == error.args and back.__traceback__ is not None
+    of_file = ("file", "line", "key", "problem", "remedy", "record", "time", "errno", "filename")
+    assert all(getattr(back, name, None) == getattr(error, name, None) for name in of_file)
+
+
 def test_what_a_motion_gives_out_changes_no_scene() -> None:
     shake = rk.total(rk.pulse("half-sine", amplitude=1.0, omega=5.0), rk.pulse("half-sine", amplitude=2.0, omega=5.0, start=1.0))
     scene = rk.Scene(COLUMN, shake)

@@ -64,6 +64,11 @@ class MissingFileError(SceneError, FileNotFoundError):
         super().__init__(message, file, *details)
         self.errno, self.strerror, self.filename = errno.ENOENT, message, self.record or file
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Pickled by its own arguments: workers of `distributed` make their own of errors that are pickled as OSError is, which fails for a class that is
+        # also a ValueError.
+        return type(self), self.args
+
 
 class RecordError(RockingError, ValueError):
     """A record is refused. ``file`` is its file, or its name."""
