@@ -363,7 +363,7 @@ mod tests {
     #[test]
     fn a_mode_alone_takes_so_many_steps_and_no_more() {
         let column = Column::equal_blocks(1, 0.4, 1.6, 1.0, 9.81).expect("valid");
-        let mode = Mode::generic(&column, &Pattern::from_signs(&[1])).expect("it moves");
+        let mode = Mode::generated(&column, &Pattern::from_signs(&[1])).expect("every build has one block");
         let segments = Excitation::default().segments(0.2);
         let ended = mode.integrate(&[0.0, 1e16], &segments, &[0.0, 0.1], &IntegrateOptions::default());
         assert!(matches!(ended, Err(IntegrateError::TooManySteps { time }) if time < 0.1), "{ended:?}");
