@@ -436,8 +436,9 @@ impl Response {
     /// `column` is that of the run.
     ///
     /// # Panics
-    /// If the column has fewer blocks than the run.
+    /// If `column` has another number of blocks than that of the run.
     pub fn ends_below_balance(&self, column: &Column, overturn_angle: f64) -> bool {
+        self.assert_of(column);
         let is_below = |block: usize| overturn_angle < column.stack(block - 1).slenderness();
         self.status == StopReason::Overturned && self.overturned_block.is_some_and(is_below)
     }
@@ -527,13 +528,15 @@ impl Response {
     fn warning_of_generic_modes(&self) -> String {
         let (blocks, most) = (self.peak_theta.len(), crate::mechanics::generated::MAX_BLOCKS);
         if blocks == 0 {
-            return "some modes ran on other equations than were asked for: the supplied ones or this build lack them, and generic ones are slower"
-                .into();
+            return format!(
+                "some modes ran on other equations than were asked for: supplied ones lack them, or this build, which has those of up to {most} block(s) (ROCKING_MAX_BLOCKS), \
+                 and generic ones are slower"
+            );
         }
         if (1..=most).contains(&blocks) {
             // This build has all modes of such a column: other equations were supplied.
             return "the supplied equations lack modes of this column, or have another gravity: these ran on the equations of this build, perhaps not \
-                    what was meant (generate equations for these blocks and this gravity, to the last digit)"
+                    what was meant (supply equations of these blocks and this gravity; baked ones are of aligned rectangles)"
                 .into();
         }
         let remedy = match blocks <= rocking_codegen::LARGEST {

@@ -219,7 +219,7 @@ pub struct Look {
 
 /// What is simulated. Start from [`Scene::new`] and set fields.
 ///
-/// A serialised scene has all of its numbers, samples of records included, and reads back as an equal scene if they are finite, as those of a valid scene are:
+/// A serialised scene has all of its numbers, samples of records included, and reads back as an equal scene if they are finite, as those of a valid scene are, and its equations are not supplied ones:
 /// JSON has no infinity. Column and records are checked when they are read, all else by [`Scene::check`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

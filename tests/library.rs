@@ -237,15 +237,22 @@ fn a_tall_column_swings_for_twenty_over_p() {
     assert_eq!(scene.end_of_free_swing(), Some(27.0));
 }
 
-/// Lists of coefficients of another length are a fault of the scene, not of the caller: they panicked.
+/// Lists of coefficients of another length are a fault of the scene, not of the caller: they panicked. A run without end was searched without end.
 #[test]
-fn slips_of_a_scene_that_is_not_valid_are_none() {
+fn nothing_happens_to_contacts_of_a_scene_that_is_not_valid() {
     let mut scene = Scene::new(Column::equal_blocks(2, 0.4, 1.6, 1.0, 9.81).expect("valid"));
     scene.friction = Some(Friction::new(vec![], vec![0.5]));
     assert!(scene.check().is_err());
-    assert!(
-        scene.contacts_at_rest().iter().all(|contact| contact.coefficient.is_none() && contact.slides_from.is_none())
-    );
+    let endless = Motion::Harmonic { amplitude: 1.0, omega: 5.0, start: 0.0, phase: 0.0 };
+    let of_coefficients = scene.contacts_at_rest();
+    (scene.friction, scene.excitation.horizontal, scene.options.t_end) = (None, Some(endless), f64::INFINITY);
+    assert!(scene.check().is_err());
+    for contact in of_coefficients.into_iter().chain(scene.contacts_at_rest()) {
+        assert_eq!(
+            (contact.coefficient, contact.slides_from, contact.opens_from, contact.at_pga),
+            (None, None, None, None)
+        );
+    }
 }
 
 /// What is not asked for is not there, whether friction is used up (0.2) or holds (0.9): a run that sticks throughout had events, peaks and forces.

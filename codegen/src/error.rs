@@ -53,7 +53,10 @@ impl fmt::Display for GenerateError {
                 write!(f, "{max_blocks} blocks (ROCKING_MAX_BLOCKS): choose a whole number from 1 to {LARGEST}")
             }
             GenerateError::BakedSize { blocks } => {
-                write!(f, "a column of {blocks} block(s) is not baked: from 1 to {LARGEST_BAKED} are; use `generate`")
+                write!(
+                    f,
+                    "a column of {blocks} block(s) is not baked: from 1 to {LARGEST_BAKED} are; `generate` takes up to {LARGEST}"
+                )
             }
             GenerateError::BakedValue { name, value } => {
                 let range = |range: RangeInclusive<f64>| format!("from {:e} to {:e}", range.start(), range.end());

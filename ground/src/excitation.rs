@@ -30,7 +30,7 @@ impl Excitation {
 
     /// As [`Excitation::warnings`], for a study in which this motion has a name: records without a file go by that name.
     pub fn warnings_named(&self, name: &str) -> Vec<String> {
-        self.warnings_with(&|_| format!("record {name}"))
+        self.warnings_with(&|_| if name.starts_with("record ") { name.into() } else { format!("record {name}") })
     }
 
     /// Warnings, in which records without a file go by a name made of their component, `horizontal` or `vertical`.

@@ -40,7 +40,9 @@ pub fn scene(py: Python<'_>, error: &SceneFileError) -> PyErr {
             }
         }
         SceneFileError::Unreadable { file, problem } => {
-            let class = if file.exists() { "SceneError" } else { "MissingFileError" };
+            // A file in a folder that may not be entered is not known to be missing.
+            let is_missing = file.try_exists().is_ok_and(|exists| !exists);
+            let class = if is_missing { "MissingFileError" } else { "SceneError" };
             exception(py, class, (text, shown(file), 0, "", problem))
         }
         _ => exception(py, "SceneError", (text,)),

@@ -38,6 +38,7 @@ fn _rocking(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(study::probability, module)?)?;
     module.add_function(wrap_pyfunction!(study::stripes, module)?)?;
     module.add_function(wrap_pyfunction!(study::measure_label, module)?)?;
+    module.add_function(wrap_pyfunction!(study::equal_scales, module)?)?;
     module.add_function(wrap_pyfunction!(study::is_result, module)?)?;
     module.add_function(wrap_pyfunction!(study::record_columns, module)?)?;
     module.add_function(wrap_pyfunction!(study::is_of_one_record, module)?)?;

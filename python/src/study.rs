@@ -321,6 +321,12 @@ pub fn stripes<'py>(py: Python<'py>, runs: Runs<'py>) -> PyResult<Bound<'py, PyD
     Ok(columns)
 }
 
+/// The share by which scales of one record may differ at a level of a measure, by its heading; `None` if they depend on the column as well.
+#[pyfunction]
+pub fn equal_scales(heading: &str) -> Option<f64> {
+    studies::has_one_scale(heading).then_some(studies::EQUAL_SCALES)
+}
+
 /// The label of an axis of a measure, by its heading in a table; none for another heading.
 #[pyfunction]
 pub fn measure_label(heading: &str) -> Option<String> {

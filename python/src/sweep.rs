@@ -1,7 +1,7 @@
 //! Sweeps: the table of a range of points, with the same columns as that of the command line.
 
 use crate::error;
-use crate::interrupt::in_order;
+use crate::interrupt::{Signals, in_order};
 use crate::origin::Origin;
 use crate::scene::Scene;
 use crate::table::{self, Column, Names, Values, into_python, words};
@@ -57,8 +57,11 @@ impl Sweep {
     }
 
     /// Warnings about axes, and about the scenes of all points or of this number of evenly spread ones.
-    fn warnings(&self, py: Python<'_>, most: usize) -> Vec<String> {
-        py.detach(|| self.sweep.warnings(0..self.sweep.len(), most))
+    fn warnings(&self, py: Python<'_>, most: usize) -> PyResult<Vec<String>> {
+        let mut signals = Signals::new();
+        let warnings = py.detach(|| self.sweep.warnings_observed(0..self.sweep.len(), most, || signals.poll()));
+        signals.finish()?;
+        Ok(warnings)
     }
 
     #[getter]

@@ -310,6 +310,28 @@ def test_a_record_that_is_not_there_is_a_file_not_found(tmp_path: Path) -> None:
     assert station.value.record and not isinstance(station.value, FileNotFoundError)
 
 
+def test_relative_records_are_those_of_the_folder_in_which_a_scene_was_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """After a change of folder another record of the same name was run, without a word."""
+    for folder, pga in (("a", 1.5), ("b", 6.0)):
+        (tmp_path / folder).mkdir()
+        rk.Record.synthetic(1, duration=4.0, pga=pga).to_csv(tmp_path / folder / "acc.csv")
+    monkeypatch.chdir(tmp_path / "a")
+    motion = {"kind": "record", "file": "acc.csv"}
+    made = rk.Scene(COLUMN, motion, eta=0.9, t_end=5.0)
+    text = '[column]\nblocks = 2\nhalf_width = 0.4\nhalf_height = 1.6\n[excitation.horizontal]\nkind = "record"\nfile = "acc.csv"\n'
+    scenes = [made, rk.Scene(COLUMN, rk.total(rk.Motion(**motion))), rk.Scene.from_toml(text), rk.Scene.from_dict(rk.Scene.from_toml(text).keys)]
+    scenes.append(rk.Scene.from_dict({**made.keys, "excitation": {"horizontal": motion}}))
+    before = [rk.simulate(scene).peak_theta for scene in scenes]
+    sweep = rk.Sweep(made, {"eta": [0.9]}, ask="peaks")
+    monkeypatch.chdir(tmp_path / "b")
+    for scene, peaks in zip(scenes, before):
+        replaced = scene.replace(title="the same")
+        scene.save(tmp_path / "b" / "saved.toml")
+        for again in (scene, replaced, pickle.loads(pickle.dumps(scene)).replace(title="pickled"), rk.Scene.load("saved.toml")):
+            np.testing.assert_array_equal(rk.simulate(again).peak_theta, peaks)
+    assert rk.Sweep(made, {"eta": [0.9]}, ask="peaks").table().equals(sweep.table()) and pickle.loads(pickle.dumps(sweep)).table().equals(sweep.table())
+
+
 @pytest.mark.parametrize(
     "error",
     [
@@ -333,6 +355,36 @@ def test_errors_come_back_from_workers(error: rk.RockingError) -> None:
     assert type(back) is type(error) and str(back) == "message" and back.args == error.args and back.__traceback__ is not None
     of_file = ("file", "line", "key", "problem", "remedy", "record", "time", "errno", "filename")
     assert all(getattr(back, name, None) == getattr(error, name, None) for name in of_file)
+
+
+def test_one_of_several_faults_comes_back_from_workers() -> None:
+    """Raised again while the error of them all is handled, it stands in the arguments of its own context."""
+    support = pytest.importorskip("tblib.pickling_support")
+    with pytest.raises(rk.SceneError) as raised:
+        try:
+            rk.Scene(COLUMN, eta=1.5, t_end=-1.0)
+        except rk.SceneError as several:
+            assert len(several.faults) == 2
+            raise several.faults[1]
+    support.install(raised.value, raised.value.__context__)
+    back = pickle.loads(pickle.dumps(raised.value))
+    assert (back.key, str(back)) == (raised.value.key, str(raised.value)) and len(back.__context__.faults) == 2
+
+
+def test_a_folder_that_may_not_be_entered_is_not_missing(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refused(path: Any, *others: Any, **named: Any) -> Any:
+        raise PermissionError(errno.EACCES, "Permission denied", path)
+
+    monkeypatch.setattr("rocking._record.os.stat", refused)
+    with pytest.raises(rk.SceneError, match="Permission denied; check the permissions") as caught:
+        rk.records("/closed")
+    assert not isinstance(caught.value, FileNotFoundError)
+    monkeypatch.undo()
+    for load in (rk.records, rk.Scene.load, rk.Sweep.load, rk.Study.load):
+        with pytest.raises(ValueError, match="is empty; give a path"):
+            load("")
+    with pytest.raises(ValueError, match="name is empty; give the record a name"):
+        rk.StudyRecord("", rk.Record.synthetic(1))
 
 
 def test_what_a_motion_gives_out_changes_no_scene() -> None:

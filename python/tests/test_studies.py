@@ -718,11 +718,17 @@ def test_what_would_change_an_answer_is_told() -> None:
     for changed, told in (
         (table.assign(column=np.repeat(["a", "b"], 15)), "all 2 values of `column` make one curve"),
         (pd.concat([table, table], ignore_index=True).assign(index=range(60)), r"30 run\(s\) have all settings of a run above"),
+        (pd.concat([table, table.assign(scale=2.5)], ignore_index=True).assign(index=range(60)), "several records are called 'r0', and 4 other name"),
         (table.assign(truncated=(table.outcome == "rocks").astype(int)), r"15 run\(s\) end before their ground motion"),
         (table.assign(peak_2=table.peak_2.where(table.outcome != "rocks")), r"15 run\(s\) that stand have no `peak_2`"),
     ):
         with pytest.warns(UserWarning, match=told):
             rk.Study(changed).fragility("peak > 0.35", replicates=0)
+    with warnings.catch_warnings():
+        # In units of uplift a record has another scale for another column.
+        warnings.simplefilter("error")
+        columns = pd.concat([table, table.assign(scale=2.5)], ignore_index=True).assign(index=range(60))
+        rk.Study(columns.rename(columns={"pgv": "pgv_uplift"})).fragility("overturned", replicates=0)
     with pytest.raises(rk.StudyError, match=r"table.iloc\[5\]: block 2 was lost, and the table has 1 column"):
         rk.Study(table.drop(columns="peak_2")).fragility("peak > 0.35", replicates=0)
     with pytest.raises(rk.StudyError, match="column `first_uplift`: 'NA' is no number"):

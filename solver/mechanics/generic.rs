@@ -31,6 +31,7 @@ impl GenericMode {
     /// # Panics
     /// If the pattern is not of as many interfaces as the column. [`crate::Mode::generic`] refuses it.
     pub fn new(column: &Column, pattern: &Pattern) -> GenericMode {
+        assert!(pattern.0.len() == column.len(), "a pattern does not have the {} entries of the column", column.len());
         let (moment, lever) = moments_and_levers(column, pattern);
         GenericMode {
             column: column.clone(),

@@ -140,7 +140,7 @@ impl<'a, S: Size> Posture<'a, S> {
         rates
     }
 
-    /// Velocities of the centroids `[m/s]` for link rates `[rad/s]`, or the part of accelerations due to link accelerations.
+    /// Velocities of the centroids `[m/s]` for link rates `[rad/s]`, length dof, or the part of accelerations due to link accelerations.
     #[inline(always)]
     pub fn linear(&self, rates: &[f64]) -> S::List<Vec2> {
         self.size.list_of(|block| {
@@ -149,13 +149,13 @@ impl<'a, S: Size> Posture<'a, S> {
         })
     }
 
-    /// Angular rates of the blocks for link rates.
+    /// Angular rates of the blocks for link rates, length dof.
     #[inline(always)]
     pub fn angular(&self, rates: &[f64]) -> S::List<f64> {
         self.size.list_of(|block| if self.link[block] == 0 { 0.0 } else { rates[self.link[block] - 1] })
     }
 
-    /// Centripetal accelerations of the centroids `[m/s²]` at link rates.
+    /// Centripetal accelerations of the centroids `[m/s²]` at link rates, length dof.
     #[inline(always)]
     pub fn centripetal(&self, rates: &[f64]) -> S::List<Vec2> {
         self.size.list_of(|block| {
@@ -246,7 +246,7 @@ impl<'a, S: Size> Posture<'a, S> {
     }
 
     /// Generalised loads `Jᵀ m v` on the free angles `[N m]`, from loads per unit mass on the centroids `[m/s²]` and per unit inertia
-    /// `[rad/s²]`. From velocities: generalised momenta.
+    /// `[rad/s²]`, both of length N. From velocities: generalised momenta.
     #[inline(always)]
     pub fn generalised(&self, linear: &[Vec2], angular: &[f64]) -> S::List<f64> {
         let mut result = self.size.list(0.0);
@@ -263,7 +263,7 @@ impl<'a, S: Size> Posture<'a, S> {
     }
 
     /// Resultant at each interface on the stack above it, from the accelerations of the blocks minus that of gravity `[m/s²]`, `[rad/s²]`; from jumps of
-    /// velocity, impulses.
+    /// velocity, impulses. Both lists have length N.
     /// docs/book/model.md, section 4.
     #[inline(always)]
     pub fn resultants(&self, linear: &[Vec2], angular: &[f64]) -> S::List<ContactForce> {
@@ -283,7 +283,7 @@ impl<'a, S: Size> Posture<'a, S> {
         })
     }
 
-    /// `½ Σ (m v² + I ω²)` `[J]` of centroid velocities `[m/s]` and rates `[rad/s]`.
+    /// `½ Σ (m v² + I ω²)` `[J]` of centroid velocities `[m/s]` and rates `[rad/s]`, both of length N.
     #[inline(always)]
     pub fn kinetic_energy(&self, linear: &[Vec2], angular: &[f64]) -> f64 {
         let blocks = self.blocks().iter().zip(linear.iter().zip(angular));

@@ -174,7 +174,8 @@ impl<D: Dynamics + Send + Sync + 'static> Erased for D {
 }
 
 impl Mode {
-    /// A mode on equations of one's own: dynamics that belong to the pattern, integrated with this gravity `[m/s²]`.
+    /// A mode on equations of one's own: dynamics of as many free angles as the pattern has, integrated with this gravity `[m/s²]`. A run takes others in place of
+    /// those with another number of angles.
     pub fn from_dynamics(pattern: Pattern, gravity: f64, dynamics: impl Dynamics + Send + Sync + 'static) -> Mode {
         Mode { pattern, gravity, equations: Arc::new(dynamics) }
     }
@@ -192,6 +193,11 @@ impl Mode {
     /// Gravity of the column `[m/s²]`, with which the mode is integrated.
     pub fn gravity(&self) -> f64 {
         self.gravity
+    }
+
+    /// Number of free angles of its equations.
+    pub(crate) fn dof(&self) -> usize {
+        self.equations.dof()
     }
 
     /// `[θ̇, θ̈]` at a state. Generated equations for horizontal ground motion alone have the column's gravity in their constants and ignore that of `ground`.
@@ -337,20 +343,20 @@ impl IntegrateOptions {
 /// Shortest step of methods without step control, as a share of the time integrated. Shorter ones end at no time that anybody waits for.
 const SHORTEST_STEP: f64 = 1.0 / MOST_STEPS as f64;
 
-/// Refuses times that do not ascend, and segments that do not cover them.
+/// Refuses segments with gaps, and times that do not ascend or that the segments do not cover.
 fn check_times(times: &[f64], segments: &[Segment]) -> Result<(), IntegrateError> {
-    let mut least = f64::NEG_INFINITY;
+    if let Some(pair) = segments.windows(2).find(|pair| pair[0].end != pair[1].start) {
+        return Err(IntegrateError::Gap { time: pair[0].end });
+    }
+    let [start, end] = [segments.first().map(|first| first.start), segments.last().map(|last| last.end)];
+    let mut least = start.unwrap_or(f64::INFINITY);
     for (index, &time) in times.iter().enumerate() {
-        let is_covered = segments.iter().any(|segment| segment.start <= time && time <= segment.end);
-        if !(time.is_finite() && time >= least && is_covered) {
+        if !(time.is_finite() && time >= least && end.is_some_and(|end| time <= end)) {
             return Err(IntegrateError::Times { index, time });
         }
         least = time;
     }
-    match segments.windows(2).find(|pair| pair[0].end != pair[1].start) {
-        Some(pair) => Err(IntegrateError::Gap { time: pair[0].end }),
-        None => Ok(()),
-    }
+    Ok(())
 }
 
 #[cfg(test)]

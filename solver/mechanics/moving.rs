@@ -64,6 +64,9 @@ impl MovingLists {
 
 /// Writes the second derivatives of the angles, then of the translations, into a list. Returns whether the determinant of the rows is above zero; `None` if
 /// they determine nothing.
+///
+/// # Panics
+/// If the lists are not those of [`MovingLists::zero`] for the angles and translations of the program, or the list written has not as many entries as these.
 pub type MovingEquations = fn(&MovingLists, &mut [f64]) -> Option<bool>;
 
 /// The equations of a program. Called by generated modules.

@@ -20,8 +20,8 @@ const AT_ONCE: f64 = 1e-9;
 const WEIGHTLESS: f64 = 1e-9;
 
 /// A contact of a column at rest under the ground motion of a scene ([`Scene::contacts_at_rest`]). Accelerations are horizontal ones of the ground, without
-/// vertical motion; times count both components. Only one contact is sure to do what is said of it: the one that slides or opens first. It may keep the others
-/// from it.
+/// vertical motion; times count both components. Only the first contact to slide or open is sure to do so: it may keep the others from it. Of what happens at
+/// the same time, as at a jump of the ground's acceleration, one alone is sure, and [`ContactAtRest::at_pga`], where there is one, says which of a contact.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ContactAtRest {
@@ -103,7 +103,8 @@ impl UnderPeak {
 
 impl Scene {
     /// What the ground motion does to each contact of the column at rest, base first: when it slides or opens if none of the others has before, and what its
-    /// peak asks of it. Friction counts if the scene is valid.
+    /// peak asks of it. Of the state at `t = 0` only the column's slides count, not [`Scene::initial`]. Nothing happens in a scene that is not valid, and friction
+    /// does not count there. The search takes as long as the ground motion up to `t_end` has periods, and has no end of its own.
     ///
     /// ```
     /// use rocking::{Column, Motion, Scene};
@@ -116,10 +117,12 @@ impl Scene {
     /// ```
     pub fn contacts_at_rest(&self) -> Vec<ContactAtRest> {
         let column = &self.column;
-        let segments = self.excitation.segments(self.options.t_end);
-        let pga = self.excitation.horizontal.as_ref().map_or(0.0, |motion| motion.peaks(0.0, self.options.t_end)[0]);
-        // Lists of coefficients of another length are a fault of the scene.
-        let friction = self.friction.as_ref().filter(|_| self.check().is_ok());
+        // Lists of coefficients of another length are a fault of the scene, as is a run without end.
+        let is_valid = self.check().is_ok();
+        let segments = if is_valid { self.excitation.segments(self.options.t_end) } else { Vec::new() };
+        let horizontal = self.excitation.horizontal.as_ref().filter(|_| is_valid);
+        let pga = horizontal.map_or(0.0, |motion| motion.peaks(0.0, self.options.t_end)[0]);
+        let friction = self.friction.as_ref().filter(|_| is_valid);
         let friction = friction.map(|friction| friction.per_interface(column.len()));
         let contact = |interface: usize| {
             let stack = column.stack(interface);
@@ -135,7 +138,7 @@ impl Scene {
             let is_symmetric = is_symmetric(column, interface);
             // What follows where both are passed at once, no formula of one of them says.
             let is_tie = slides_at.is_some_and(|slides| (slides - opens_at).abs() <= ROUNDING * opens_at.abs());
-            let has_one_peak = self.excitation.vertical.is_none() && is_symmetric && !is_tie;
+            let has_one_peak = is_valid && self.excitation.vertical.is_none() && is_symmetric && !is_tie;
             let peak = has_one_peak.then(|| UnderPeak::of(&stack, coefficients.unwrap_or([f64::INFINITY; 2]), pga));
             ContactAtRest {
                 interface: interface + 1,

@@ -136,8 +136,11 @@ impl Modes {
         let (first, second) = match problem.scene.options.dynamics {
             DynamicsSource::Generated => (generated(), None),
             DynamicsSource::Supplied(equations) => {
-                // Equations of another pattern would move the column in a way that its contacts do not allow, those of another gravity as on another planet.
-                let is_of_scene = |mode: &Mode| mode.pattern() == pattern && mode.gravity() == column.gravity();
+                // Equations of another pattern, or number of angles, would move the column in a way that its contacts do not allow, those of another gravity as on
+                // another planet.
+                let is_of_scene = |mode: &Mode| {
+                    mode.pattern() == pattern && mode.dof() == pattern.dof() && mode.gravity() == column.gravity()
+                };
                 let supplied = (equations.mode)(column, pattern, ground).filter(is_of_scene);
                 if supplied.is_some() { (supplied, None) } else { (None, generated()) }
             }

@@ -30,7 +30,8 @@ pub use ida::{Ida, IdaError, IdaPoint, StudyRecord};
 pub use ida_runs::{IdaOutcome, IdaRun, RunError};
 pub use levels::is_same_level;
 pub use observation::{
-    Cells, DEFAULT_STATES, LimitState, NoLimitState, Observation, WrongCell, is_of_one_record, record_columns,
+    Cells, DEFAULT_STATES, EQUAL_SCALES, LimitState, NoLimitState, Observation, WrongCell, has_one_scale,
+    is_of_one_record, record_columns,
 };
 pub use proportion::Proportion;
 pub use stripes::{FRACTILES, Stripe, fractile, stripes};

@@ -1,5 +1,6 @@
 //! What a study observes of a run, and the limit states that an observation reaches or not.
 
+use crate::intensity::{Intensity, IntensityUnit};
 use crate::response::Fate;
 use crate::sweep::{ERROR, is_of_records};
 use crate::trust::Degree;
@@ -152,6 +153,16 @@ pub fn record_columns<S: AsRef<str>>(header: &[S]) -> Vec<usize> {
 pub fn is_of_one_record<S: AsRef<str>>(header: &[S], level: usize) -> bool {
     let is_of_motion = |place: &usize| header[*place].as_ref().starts_with("excitation.");
     (0..header.len()).filter(is_of_motion).eq([level])
+}
+
+/// Share by which scales of one record may differ at one level: rounding.
+pub const EQUAL_SCALES: f64 = 1e-9;
+
+/// Whether a record has one scale at a level of a measure, whichever column it shakes, by the heading of the measure: `pga_g`, `excitation.horizontal.pgv`. Runs
+/// of one record at one level whose scales differ are then of different records.
+pub fn has_one_scale(heading: &str) -> bool {
+    let measure = heading.rsplit('.').next().unwrap_or(heading);
+    measure.parse().is_ok_and(|intensity: Intensity| intensity.unit != IntensityUnit::Uplift)
 }
 
 /// A limit state of a column.

@@ -5,7 +5,7 @@ use super::outcome::Ask;
 use crate::scene::{Scene, Wanted};
 use crate::scene_file::{SceneFileError, Setting, Template};
 use std::collections::HashSet;
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 
 /// A base scene and what varies.
 #[derive(Debug)]
@@ -47,7 +47,21 @@ impl Sweep {
     /// # Panics
     /// If the sweep has no such points.
     pub fn warnings(&self, points: Range<usize>, most: usize) -> Vec<String> {
-        let scenes = evenly_spread(points, most).filter_map(|point| self.scene(point).ok());
+        self.warnings_observed(points, most, || ControlFlow::Continue(()))
+    }
+
+    /// As [`Sweep::warnings`]; `progress` is called before each scene is read, and a break ends with the warnings so far.
+    ///
+    /// # Panics
+    /// If the sweep has no such points.
+    pub fn warnings_observed(
+        &self,
+        points: Range<usize>,
+        most: usize,
+        mut progress: impl FnMut() -> ControlFlow<()>,
+    ) -> Vec<String> {
+        let read = evenly_spread(points, most).take_while(|_| progress().is_continue());
+        let scenes = read.filter_map(|point| self.scene(point).ok());
         let mut seen = HashSet::new();
         let all =
             self.axes.iter().filter_map(|axis| self.rescaled(axis)).chain(scenes.flat_map(|scene| scene.warnings()));

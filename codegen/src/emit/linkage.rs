@@ -59,7 +59,7 @@ pub fn composite_functions(record: &CompositeRecord) -> TokenStream {
             "Scene constants of the contact forces at a closed interface inside link {link} of {dof}: bodies {link} and {} are that link below and above it.",
             link + 1
         );
-        scene_constants(&format_ident!("forces_inside_{link}_{stem}"), &title, &inside.arena, &inside.constants, &[])
+        scene_constants(&quote! {}, &format_ident!("forces_inside_{link}_{stem}"), &title, &inside.arena, &inside.constants, &[])
     });
     quote! { #accelerations #others #(#inside)* }
 }
@@ -67,6 +67,7 @@ pub fn composite_functions(record: &CompositeRecord) -> TokenStream {
 fn accelerations(record: &LinkageRecord, stem: &str, links: &str) -> TokenStream {
     let accelerations = GroundMotion::ALL.map(|ground| {
         scene_constants(
+            &quote! {},
             &accelerations_name(stem, ground),
             &format!("Scene constants of the accelerations{}; {links}.", words(ground)),
             &record.arena,
@@ -80,7 +81,7 @@ fn accelerations(record: &LinkageRecord, stem: &str, links: &str) -> TokenStream
 fn forces_and_energies(record: &LinkageRecord, stem: &str, links: &str) -> TokenStream {
     let function = |kind: &str, of: &str, constants: &[Constant]| {
         let title = format!("Scene constants of {of}; {links}.");
-        scene_constants(&format_ident!("{kind}_{stem}"), &title, &record.arena, constants, &record.energies)
+        scene_constants(&quote! {}, &format_ident!("{kind}_{stem}"), &title, &record.arena, constants, &record.energies)
     };
     let energies = function("energies", "mass matrix and energies", &record.energies);
     let series = function("series", "the weights", &record.series);
@@ -100,8 +101,9 @@ pub fn accelerations_name(stem: &str, ground: GroundMotion) -> Ident {
 }
 
 /// A function from the sizes of a column to scene constants, each with a comment of unit and formula. Sub-expressions that equal a constant
-/// of `energies` get its name.
+/// of `energies` get its name. `visibility` is `pub`, or nothing.
 pub fn scene_constants(
+    visibility: &TokenStream,
     name: &Ident,
     title: &str,
     arena: &Arena,
@@ -121,7 +123,7 @@ pub fn scene_constants(
     let sizes = sizes(&body.to_string());
     quote! {
         #doc
-        fn #name<S: Scalar>(column: &Geometry<S>) -> Vec<S> {
+        #visibility fn #name<S: Scalar>(column: &Geometry<S>) -> Vec<S> {
             #sizes
             #body
         }

@@ -82,7 +82,14 @@ pub fn excerpt(derivation: &Derivation) -> String {
     let constants = |name: &str, constants: &[Constant]| {
         let title = "Scene constants of this linkage; the sides of its open interfaces are the signs of the pivots.";
         let energies = &derivation.energies.constants;
-        linkage::scene_constants(&format_ident!("{name}"), title, &derivation.arena, constants, energies)
+        linkage::scene_constants(
+            &quote! { pub },
+            &format_ident!("{name}"),
+            title,
+            &derivation.arena,
+            constants,
+            energies,
+        )
     };
     let parts = GroundMotion::ALL.map(|ground| {
         let program = derivation.acceleration(ground);

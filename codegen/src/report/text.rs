@@ -18,6 +18,9 @@ pub(super) const NOTATION: &str = "theta_a [rad], omega_a, theta_ddot_a: angle, 
 const ALIGNED: &str = "Blocks are rectangles and stand aligned: c_i is half the contact at interface i. Tapered and displaced blocks have the same programs with other constants.\n";
 
 /// The derivation of a pattern, from positions to the step-time program, as plain text.
+///
+/// # Panics
+/// For a pattern at rest, which has no equations.
 pub fn text(pattern: &Pattern) -> String {
     let derivation = derive(&pattern.linkage());
     let Derivation { arena, symbols, equations, .. } = &derivation;
@@ -68,14 +71,17 @@ pub fn text(pattern: &Pattern) -> String {
 }
 
 /// The emitted Rust of a pattern: its step program and its scene constants.
+///
+/// # Panics
+/// For a pattern at rest, which has no equations.
 pub fn rust(pattern: &Pattern) -> String {
     let heading: String = title(pattern).lines().map(|line| format!("// {line}\n")).collect();
     format!("{heading}{EXCERPT}{}", emit::excerpt(&derive(&pattern.linkage())))
 }
 
 /// What an excerpt leaves out.
-const EXCERPT: &str = "// An excerpt of the module that is generated for columns of as many blocks: it compiles in any crate that depends on `rocking`.\n\
-    // Contact forces are in the module alone.\n//\n";
+const EXCERPT: &str = "// An excerpt of the module that is generated for columns of as many blocks: it compiles in any crate that depends on `rocking`,\n\
+    // as a module with `#[allow(unused_variables)] mod ..`. Contact forces are in the module alone.\n//\n";
 
 pub(super) fn title(pattern: &Pattern) -> String {
     let name = match pattern.mode() {

@@ -3,6 +3,7 @@
 use baked_column::{DENSITY, GRAVITY, column, run, scene, six_blocks};
 use rocking::dynamics::Ground;
 use rocking::generated::Equations;
+use rocking::generic::GenericMode;
 use rocking::pattern::{Interface, Pattern};
 use rocking::{Column, DynamicsSource, Friction, GroundMotion, Mode, Motion, Scene};
 
@@ -80,6 +81,21 @@ fn equations_of_another_gravity_are_not_taken() {
         Mode::generic(&moon, pattern)
     };
     let supplied = DynamicsSource::Supplied(Equations { name: "moon", mode: on_the_moon });
+    let [fallen_back, own] = [supplied, DynamicsSource::Generated].map(|source| run(&scene, source).expect("solved"));
+    assert!(fallen_back.used_generic && !own.used_generic);
+    assert_eq!((fallen_back.impacts, fallen_back.peak_theta), (own.impacts, own.peak_theta));
+}
+
+/// Those of another number of free angles panicked in the integrator.
+#[test]
+fn equations_of_another_number_of_angles_are_not_taken() {
+    let scene = scene().expect("positive sizes");
+    let of_all_angles = |column: &Column, pattern: &Pattern, _: GroundMotion| {
+        let all = Pattern::from_signs(&vec![1; column.len()]);
+        let dynamics = GenericMode::new(column, &all);
+        (pattern.dof() < column.len()).then(|| Mode::from_dynamics(pattern.clone(), column.gravity(), dynamics))
+    };
+    let supplied = DynamicsSource::Supplied(Equations { name: "all", mode: of_all_angles });
     let [fallen_back, own] = [supplied, DynamicsSource::Generated].map(|source| run(&scene, source).expect("solved"));
     assert!(fallen_back.used_generic && !own.used_generic);
     assert_eq!((fallen_back.impacts, fallen_back.peak_theta), (own.impacts, own.peak_theta));

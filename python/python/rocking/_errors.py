@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import sys
 import warnings
+from collections.abc import Sequence
 from typing import Any
 
 
@@ -56,6 +57,18 @@ class SceneError(RockingError, ValueError):
         self.record: str = record
         self.faults: tuple[SceneError, ...] = faults or (self,)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Pickled by its own arguments. Workers of `distributed` take another way for errors that do not say how: it fails for a class that is an OSError and a
+        # ValueError, and it does not end for one of several faults that was raised again, as that stands in the arguments of the error in whose handling it was.
+        *own, faults = self.args
+        return _again, (type(self), own, [(type(fault), fault.args[:-1]) for fault in faults])
+
+
+def _again(kind: type[SceneError], own: Sequence[Any], faults: Sequence[tuple[type[SceneError], Sequence[Any]]] = ()) -> SceneError:
+    """An error made anew when it is unpickled."""
+    arguments: list[Any] = [*own, tuple(_again(*fault) for fault in faults)]
+    return kind(*arguments)
+
 
 class MissingFileError(SceneError, FileNotFoundError):
     """A scene file, a sweep file, a study file, a folder of records, or a record that a scene names is not there. ``filename`` is its path."""
@@ -63,11 +76,6 @@ class MissingFileError(SceneError, FileNotFoundError):
     def __init__(self, message: str, file: str = "", *details: Any) -> None:
         super().__init__(message, file, *details)
         self.errno, self.strerror, self.filename = errno.ENOENT, message, self.record or file
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        # Pickled by its own arguments: workers of `distributed` make their own of errors that are pickled as OSError is, which fails for a class that is
-        # also a ValueError.
-        return type(self), self.args
 
 
 class RecordError(RockingError, ValueError):

@@ -18,4 +18,4 @@ def copied(value: Any) -> Any:
         return [copied(item) for item in value]
     if np.ma.is_masked(value):
         raise ValueError("an array of the scene has masked values; fill them, or leave them out")
-    return np.array(value) if hasattr(value, "tolist") else value
+    return np.array(value) if hasattr(value, "tolist") or hasattr(value, "__array__") else value

@@ -23,10 +23,15 @@ LEAST_RECORDS = 3
 DRAWN = 1.2
 
 
+def plain(words: str) -> str:
+    """A text as it is: a dollar sign begins no formula."""
+    return words.replace("$", r"\$")
+
+
 def record(drawn: "Record", ax: "Axes | None" = None) -> "Axes":
     ax = plt.subplots(figsize=(8, 2.5), layout="constrained")[1] if ax is None else ax
     ax.plot(drawn.t, drawn.accel, lw=0.8)
-    ax.set(xlabel="t [s]", ylabel="a [m/s²]", title=drawn.name or None)
+    ax.set(xlabel="t [s]", ylabel="a [m/s²]", title=plain(drawn.name) or None)
     return ax
 
 
@@ -56,7 +61,7 @@ def run(drawn: "Run", axes: Any = None) -> "npt.NDArray[Any]":
     below.set(xlabel="t [s]", ylabel="θ / α" if stands else "θ [°]", ylim=(low - 2 * room, high + room))
     below.set(xlim=(drawn.t[0], drawn.t[-1]) if marker is None else (0.0, drawn.t_final or 1.0))
     below.legend(frameon=False, ncols=min(shares.shape[1] + 1, 6), loc="upper right", fontsize="small")
-    above.set_title(drawn.scene.title or f"{drawn._lead}{drawn.outcome}, {drawn.impacts} impact(s)", fontsize="medium")
+    above.set_title(plain(drawn.scene.title) or f"{drawn._lead}{drawn.outcome}, {drawn.impacts} impact(s)", fontsize="medium")
     return np.array([above, below])
 
 
@@ -88,7 +93,7 @@ def study(drawn: "Study", ax: "Axes | None" = None) -> "Axes":
         ax.plot(fractile, stripes[drawn.measure], style, color="C0", lw=1.6, label=f"{share} %")
     ax.axvline(right, color="0.4", lw=0.8)
     ax.annotate("lost", (right, 1.01), xycoords=("data", "axes fraction"), ha="right", fontsize="small")
-    ax.set(xlabel="largest |θ| / α", ylabel=drawn.label, xlim=(0, right * 1.02), ylim=(0, None))
+    ax.set(xlabel="largest |θ| / α", ylabel=plain(drawn.label), xlim=(0, right * 1.02), ylim=(0, None))
     if has_fractiles:
         ax.legend(frameon=False, title="fractile")
     return ax
@@ -108,6 +113,6 @@ def fragility(drawn: "Fragility", ax: "Axes | None" = None, **style: Any) -> "Ax
         if drawn.bands and drawn.bands["levels"]:
             low, high = np.array(drawn.bands["probability"]).T
             ax.fill_between(drawn.bands["levels"], low, high, color=color, alpha=0.15, lw=0)
-    ax.set(xlabel=drawn.label, ylabel="probability", ylim=(-0.02, 1.02))
+    ax.set(xlabel=plain(drawn.label), ylabel="probability", ylim=(-0.02, 1.02))
     ax.legend(frameon=False, fontsize="small")
     return ax

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import stat
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar, overload
@@ -11,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _rocking
-from ._arguments import flag, number, numbers, optional, text, whole
+from ._arguments import flag, number, numbers, optional, path_text, text, whole
 from ._errors import MissingFileError, SceneError
 
 if TYPE_CHECKING:
@@ -395,6 +396,8 @@ class StudyRecord:
             if not isinstance(record, Record) and not (record is None and direction == "vertical"):
                 raise TypeError(f"{direction} is of {type(record).__name__}; give a Record")
         self._name = text("name", name)
+        if not name:
+            raise ValueError("name is empty; give the record a name, under which it stands in the table of a study")
         self._horizontal = horizontal
         self._vertical = vertical
 
@@ -425,6 +428,10 @@ class StudyRecord:
         return f"<StudyRecord {self.name}{': horizontal and vertical' if self.vertical else ''}>"
 
 
+#: Number of names in the text of a set of records.
+MOST_SHOWN = 20
+
+
 class Records(Sequence[StudyRecord]):
     """Records of a study, each under a name of its own. A :class:`Record` without a name is "record 3" for the third.
 
@@ -448,7 +455,7 @@ class Records(Sequence[StudyRecord]):
             self._records.append(record)
         for name, count in Counter(record.name for record in self._records).items():
             if count > 1:
-                raise ValueError(f"record {name} is there twice; give each record a name of its own with Record.named")
+                raise ValueError(f"the name {name!r} is there twice; give each record a name of its own with Record.named")
 
     @overload
     def __getitem__(self, index: int) -> StudyRecord: ...
@@ -466,7 +473,9 @@ class Records(Sequence[StudyRecord]):
         return iter(self._records)
 
     def __repr__(self) -> str:
-        return f"<Records: {', '.join(record.name for record in self._records)}>"
+        shown, others = self._records[:MOST_SHOWN], len(self._records) - MOST_SHOWN
+        more = f", and {others} more" if others > 0 else ""
+        return f"<Records: {', '.join(record.name for record in shown)}{more}>"
 
 
 def records(
@@ -505,13 +514,19 @@ def records(
         if choice is not None:
             flag(name, choice)
     optional("dt", dt)
-    path = os.path.abspath(os.fsdecode(folder))
-    if not os.path.isdir(path):
-        if os.path.exists(path):
-            raise SceneError(f"{path}: this is no folder; give one of record files", path, key="records.folder", problem="this is no folder")
-        raise MissingFileError(f"{path}: there is no such folder; check the path", path)
+    given = path_text("folder", folder)
+    path = os.path.abspath(given)
+    try:
+        is_folder = stat.S_ISDIR(os.stat(path).st_mode)
+    except (FileNotFoundError, NotADirectoryError):
+        raise MissingFileError(f"{path}: there is no such folder; check the path", path) from None
+    except OSError as failed:
+        problem = failed.strerror or str(failed)
+        raise SceneError(f"{path}: {problem}; check the permissions", path, key="records.folder", problem=problem, remedy="check the permissions") from None
+    if not is_folder:
+        raise SceneError(f"{path}: this is no folder; give one of record files", path, key="records.folder", problem="this is no folder")
     keys: dict[str, Any] = {
-        "folder": os.fsdecode(folder),
+        "folder": given,
         "component": component,
         "vertical": vertical,
         "units": units,
@@ -530,6 +545,8 @@ def records(
         problem, remedy = refused.problem, refused.remedy
         for what, read in (("records", "others"), ("files", "files")):
             remedy = remedy.replace(f"name the {what} with `files`", f"read the {read} one by one with Record.read")
+        remedy = remedy.replace("give the folder relative to the study", "give a folder that can be read")
+        problem = problem.removeprefix(f"{given}: ")
         argument = (refused.key or "").removeprefix("records.")
         place = f"{path}, {argument}" if argument in keys and argument != "folder" else path
         raise SceneError(f"{place}: {problem}; {remedy}", path, 0, refused.key, problem, remedy, refused.record) from None

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 WITHOUT_FILE = "<scene>"
 #: Files of scenes that have no keys of their own.
 POINT, RUN = "<point of a sweep>", "<run of a study>"
+#: Keys of the ground motion that name files.
+FILE_KEYS = ("file", "record")
 
 Numbers = Union[Sequence[float], npt.NDArray[Any], "pd.Series[Any]"]
 
@@ -333,7 +335,7 @@ class Scene:
             keys["excitation"] = copied(motions)
         for key, value in _dotted(arguments):
             _put(keys, key, copied(value))
-        self._become(keys, WITHOUT_FILE)
+        self._become(_of_this_folder(keys), WITHOUT_FILE)
 
     def _become(self, keys: dict[str, Any], file: str, native: _rocking.Scene | None = None, text: str | None = None) -> None:
         self._keys, self._file, self._text = keys, file, text
@@ -372,25 +374,28 @@ class Scene:
         SceneError
             For a scene that is refused, with file, line, key and remedy; :class:`MissingFileError` where the file, or a record of it, is not there.
         """
-        # What is read later of its records, by `replace` or another process, may be read in another folder.
-        path = os.path.abspath(path_text("file", file))
+        path = _place(file)
         return cls.from_toml(_rocking.scene_text(path), file=path)
 
     @classmethod
     def from_toml(cls, text: str, *, file: str | os.PathLike[str] = WITHOUT_FILE) -> "Scene":
-        """Reads the text of a scene file; ``file`` is named in errors, and records are found relative to it. Raises as :meth:`load`."""
+        """Reads the text of a scene file; ``file`` is named in errors, and records are found relative to it, or to the present folder. Raises as :meth:`load`."""
         if not isinstance(text, str):
             raise TypeError(f"text is of {type(text).__name__}; give the text of a scene, or keys to Scene.from_dict")
-        path = os.fspath(file)
-        native = _rocking.Scene.from_toml(text, path)
-        return cls._of(_rocking.from_toml(text), path, native, text)
+        path = _place(file)
+        native, keys = _rocking.Scene.from_toml(text, path), _rocking.from_toml(text)
+        if path == WITHOUT_FILE and _relative_files(keys):
+            return cls._of(_of_this_folder(keys), path, native)
+        return cls._of(keys, path, native, text)
 
     @classmethod
     def from_dict(cls, keys: Mapping[str, Any], *, file: str | os.PathLike[str] = WITHOUT_FILE) -> "Scene":
-        """Reads the keys of a scene file as a nested dictionary; records are found relative to ``file``. Raises as :meth:`load`; errors name ``<scene>``."""
+        """Reads the keys of a scene file as a nested dictionary; records are found relative to ``file``, or to the present folder. Raises as :meth:`load`;
+        errors name ``<scene>``."""
         if not isinstance(keys, Mapping):
             raise TypeError(f"keys are of {type(keys).__name__}; give a dictionary of the keys of a scene file")
-        return cls._of(copied(keys), os.fspath(file))
+        path = _place(file)
+        return cls._of(_of_this_folder(copied(keys)) if path == WITHOUT_FILE else copied(keys), path)
 
     def replace(
         self,
@@ -475,19 +480,21 @@ class Scene:
     def contacts(self) -> pd.DataFrame:
         """What the ground motion does to each contact of the column at rest, base first, a row each: which slides or opens first, and when. Nothing is run.
 
-        Each contact is taken by itself, with the stack above as one body and the others closed. ``coefficient`` is that of static friction; ``slides_at`` and
+        Of the state at t = 0 only ``slide`` counts; angles, rates and places of blocks (``x``, ``y``) do not. Each contact is taken by itself, with the stack above as one body and the others closed. ``coefficient`` is that of static friction; ``slides_at`` and
         ``opens_at`` [m/s²] are horizontal accelerations of the ground, without vertical motion, at which the contact slides, and opens on the side on which it
         takes less. ``slides_from`` and ``opens_from`` [s] are the first times at which this ground motion, both components, does so, and
         ``weightless_from`` [s] that at which the vertical one takes all weight. ``at_pga``: whether the stack ``rests``, ``slides``, ``rocks`` or
         ``slides-and-rocks`` under the largest horizontal acceleration, and ``coefficient_to_rock`` the least coefficient with which it would rock without sliding;
-        neither where the ground moves vertically or the stack is displaced. What does not happen is not a number.
+        neither where the ground moves vertically, the stack is displaced, or the contact slides and opens at the same acceleration. What does not happen is
+        blank.
 
         >>> from rocking import pulse
         >>> statue = Scene([Block(half_width=0.25, half_height=1.0)], pulse("half-sine", amplitude_g=1.0, period=1.0), friction=0.5)
         >>> print(statue.contacts.at_pga[1], round(statue.contacts.coefficient_to_rock[1], 5))
         rocks 0.41558
         """
-        contacts = self._compiled.contacts()
+        contacts: dict[str, Any] = {**self._compiled.contacts()}
+        contacts["at_pga"] = pd.array(contacts["at_pga"], dtype="string")
         return pd.DataFrame(contacts, index=pd.RangeIndex(1, len(contacts["opens_at"]) + 1, name="interface"))
 
     def save(self, file: str | os.PathLike[str]) -> None:
@@ -498,11 +505,12 @@ class Scene:
         ValueError
             Where the scene names records relative to its own folder and the file is for another one: it would name other records.
         """
-        own, new = ("" if self._file == WITHOUT_FILE else os.path.dirname(self._file)), os.path.dirname(os.fspath(file))
-        named = [name for name in _files(self.keys.get("excitation")) if not os.path.isabs(name)]
-        if named and os.path.abspath(own) != os.path.abspath(new):
-            raise ValueError(f"the scene names {named[0]} relative to {own or '.'}; save it there, or name the record by its absolute path")
-        with open(file, "w", encoding="utf-8") as out:
+        path = path_text("file", file)
+        own, new = os.path.dirname(self._file), os.path.dirname(os.path.abspath(path))
+        named = _relative_files(self.keys)
+        if named and own != new:
+            raise ValueError(f"the scene names {named[0]} relative to {own}; save it there, or name the record by its absolute path")
+        with open(path, "w", encoding="utf-8") as out:
             out.write(self.toml)
 
     def to_json(self) -> str:
@@ -547,11 +555,37 @@ def _dotted(arguments: Mapping[str, Any]) -> Iterable[tuple[str, Any]]:
             yield key, value
 
 
+def _place(file: str | os.PathLike[str]) -> str:
+    """The file of a scene as an absolute path: its records may be read later, by `replace` or another process, in another folder."""
+    path = path_text("file", file)
+    return path if path == WITHOUT_FILE else os.path.abspath(path)
+
+
+def _relative_files(keys: Mapping[str, Any]) -> list[str]:
+    return [name for name in _files(keys.get("excitation")) if name and not os.path.isabs(name)]
+
+
+def _of_this_folder(keys: dict[str, Any]) -> dict[str, Any]:
+    """Keys of a scene without a file, whose records are named by their absolute paths: they may be read later in another folder."""
+    return {**keys, "excitation": _absolute(keys["excitation"])} if _relative_files(keys) else keys
+
+
+def _absolute(motion: Any) -> Any:
+    """Keys of the ground motion with absolute paths of files."""
+    if isinstance(motion, Mapping):
+        found = {
+            key: os.path.abspath(os.fspath(value)) if key in FILE_KEYS and value and isinstance(value, (str, os.PathLike)) else _absolute(value)
+            for key, value in motion.items()
+        }
+        return Motion(**found) if isinstance(motion, Motion) else found
+    return [_absolute(item) for item in motion] if isinstance(motion, list) else motion
+
+
 def _files(motion: Any) -> Iterable[str]:
     """Files that keys of the ground motion name."""
     if isinstance(motion, Mapping):
         for key, value in motion.items():
-            yield from [os.fspath(value)] if key in ("file", "record") and isinstance(value, (str, os.PathLike)) else _files(value)
+            yield from [os.fspath(value)] if key in FILE_KEYS and isinstance(value, (str, os.PathLike)) else _files(value)
     elif isinstance(motion, list):
         for item in motion:
             yield from _files(item)

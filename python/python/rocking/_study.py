@@ -15,7 +15,7 @@ import numpy.typing as npt
 import pandas as pd
 
 from . import _rocking
-from ._arguments import flag, number, numbers, optional, text, whole
+from ._arguments import flag, number, numbers, optional, path_text, text, whole
 from ._errors import StudyError, warn
 from ._frame import arrow, frame
 from ._record import Array, Record, Records, StudyRecord
@@ -225,7 +225,7 @@ def _floats(table: pd.DataFrame, name: str) -> Array:
     made = np.empty(len(cells))
     for place, cell in enumerate(cells):
         try:
-            made[place] = np.nan if cell is None or cell is pd.NA else float(cell)
+            made[place] = np.nan if cell is None or cell is pd.NA or cell == "" else float(cell)
         except (TypeError, ValueError, OverflowError):
             raise StudyError(f"table.iloc[{place}], column `{name}`: {cell!r} is no number; give numbers") from None
     return made
@@ -343,7 +343,8 @@ class Study:
         SceneError
             For a study that is refused, with file, line, key and remedy; :class:`MissingFileError` where the file is not there.
         """
-        native = _rocking.Ida.from_toml(_rocking.scene_text(os.fspath(file)), os.fspath(file))
+        path = path_text("file", file)
+        native = _rocking.Ida.from_toml(_rocking.scene_text(path), path)
         study = cls(frame(native.table(0, len(native), whole("threads", threads))), native.measure)
         study.states, study._options = native.states, native.options
         warn(native.warnings)
@@ -353,6 +354,19 @@ class Study:
     def label(self) -> str:
         """Label of an axis of the measure: quantity and unit."""
         return _rocking.measure_label(_last(self.measure)) or self.measure
+
+    def _warn_of_shared_names(self, table: pd.DataFrame, of_records: list[str], keys: list[str]) -> None:
+        """Warns of records of one name whose scales differ at a level of a measure that does not depend on the column: they are different records."""
+        rounding = _rocking.equal_scales(self.measure)
+        if rounding is None:
+            return
+        scales = table.assign(scale=np.abs(_floats(table, "scale"))).groupby([*of_records, self.measure, *keys], dropna=False, sort=False)["scale"]
+        differ = scales.max() > scales.min() * (1.0 + rounding)
+        shared = list(dict.fromkeys(row[: len(of_records)] for row in differ[differ].index))
+        if shared:
+            others = f", and {len(shared) - 1} other name(s)," if len(shared) > 1 else ""
+            told = f"several records are called {', '.join(map(_name, shared[0]))!r}{others}: their scales differ at one level, and they count as one record"
+            warn([f"{told}; give each record a name of its own, as with Record.named"])
 
     def _runs(self) -> "Runs":
         """Columns as the library reads them, with warnings about rows that make one curve and runs that are cut."""
@@ -385,6 +399,8 @@ class Study:
         # A column that is no key of a scene may be a result.
         keys = [name for name in others if "." in name and _rocking.measure_label(name) is None]
         differ = bool((table[keys].groupby(np.array(records)).nunique(dropna=False) > 1).any(axis=None)) if keys else False
+        if of_records and "scale" in names:
+            self._warn_of_shared_names(table, of_records, [name for name in others if name in keys or name == "gravity"])
         again = int(table.duplicated(settings).sum()) if of_records else 0
         if again:
             warn([f"{again} run(s) have all settings of a run above; if they are the same runs, give each once"])
@@ -537,8 +553,8 @@ class Fragility:
         Bands of the bootstrap: lower and upper ends of ``median`` and ``dispersion``, and of ``probability`` at the ``levels``. None where too few resampled
         sets have a curve.
     bounds : list of dict or None
-        The curves if none, and if all, of the undecided runs reached the state: ``kind``, and of a curve ``median`` and ``dispersion``. None where no run is
-        undecided.
+        The curves if none, and if all, of the undecided runs reached the state: ``kind``, and of a curve ``median`` and ``dispersion``. None where no run, or
+        every run, is undecided.
     goodness : dict or None
         Pearson's chi-squared, its p-value, McFadden's R².
     falls, resurrections : list

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 import pandas as pd
 
 from . import _rocking
-from ._arguments import whole
+from ._arguments import path_text, whole
 from ._errors import warn
 from ._frame import arrow, frame
 from ._keys import copied
@@ -84,7 +84,7 @@ class Sweep:
         """
         made = cls.__new__(cls)
         # A process that runs a part may have another folder, and the file may be another by then.
-        path = os.path.abspath(file)
+        path = os.path.abspath(path_text("file", file))
         made._sweep = _rocking.Sweep.load(path)
         made._source = (path, _rocking.scene_text(path), *made._sweep.base)
         return made

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any, Union
 
 import pandas as pd
 
-from ._arguments import number, whole
+from ._arguments import number, path_text, whole
 from ._study import Ida
 from ._sweep import Sweep
 
@@ -157,7 +157,7 @@ def to_parquet(
     """
     for name in {"compute", "write_index"} & set(options):
         raise TypeError(f"there is no argument `{name}` of rocking.dask.to_parquet: the table is written at once, without an index; use rocking.dask.frame")
-    path = os.fspath(folder)
+    path = path_text("folder", folder)
     is_kept = options.get("overwrite") or options.get("append")
     if not is_kept and os.path.isdir(path) and any(name.endswith((".parquet", ".parq")) for name in os.listdir(path)):
         raise FileExistsError(f"{path} has Parquet files, which would be read with the new ones; give another folder, or overwrite=True")

@@ -22,6 +22,10 @@ pub struct Columns {
     pub records: Vec<usize>,
     /// The column with the level of the measure.
     pub level: usize,
+    /// The scale of the record, in the table of a study whose measure gives one record one scale at a level, whichever column it shakes.
+    pub scale: Option<usize>,
+    /// The gravity, where it varies.
+    pub gravity: Option<usize>,
     /// Settings that are neither the record nor the measure: other axes of a sweep.
     pub others: Vec<usize>,
     pub outcome: usize,
@@ -70,6 +74,8 @@ impl Columns {
         Ok(Columns {
             others: settings.iter().copied().filter(is_other).collect(),
             index: column(INDEX),
+            gravity: column("gravity"),
+            scale: column(SCALE).filter(|_| studies::has_one_scale(&names[level])),
             settings,
             records,
             level,

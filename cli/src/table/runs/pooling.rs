@@ -4,6 +4,7 @@ use super::columns::{Columns, last_part};
 use crate::table::column::TRUNCATED;
 use csv::StringRecord;
 use rocking::Fate;
+use rocking::studies::EQUAL_SCALES;
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -33,6 +34,8 @@ pub struct Pooling<'c> {
     records: BTreeMap<String, Vec<String>>,
     /// Whether runs of one record have other values of these keys.
     differ_beside_level: bool,
+    /// The least and the largest scale of each record at each level, with the keys of the scene.
+    scales: HashMap<String, (String, [f64; 2])>,
     /// The number and the row of the first run with these settings.
     seen: HashMap<String, (String, usize)>,
     /// Number of runs.
@@ -52,6 +55,7 @@ impl Pooling<'_> {
             values: vec![BTreeMap::new(); columns.others.len()],
             records: BTreeMap::new(),
             differ_beside_level: false,
+            scales: HashMap::new(),
             seen: HashMap::new(),
             rows: 0,
             repeated: 0,
@@ -87,6 +91,15 @@ impl Pooling<'_> {
         {
             values.entry(row[*place].to_string()).or_default().insert(record.clone());
         }
+        if let Some(scale) = columns.scale.and_then(|place| row[place].parse().ok()).map(f64::abs) {
+            // Not the level as a text: 1 and 1.0 are one.
+            let level = row[columns.level].parse().unwrap_or(f64::NAN).to_string();
+            let settings = columns.keys().chain(columns.gravity).map(|place| &row[place]);
+            let key: Vec<&str> = [&record, level.as_str()].into_iter().chain(settings).collect();
+            let (_, [least, largest]) =
+                self.scales.entry(key.join(",")).or_insert_with(|| (record.clone(), [scale; 2]));
+            (*least, *largest) = (least.min(scale), largest.max(scale));
+        }
         let keys = || columns.keys().map(|place| &row[place]);
         let first = self.records.entry(record).or_insert_with(|| keys().map(String::from).collect());
         self.differ_beside_level |= !keys().eq(first.iter());
@@ -97,6 +110,22 @@ impl Pooling<'_> {
     /// Whether runs of one record differ in a key of the scene beside those of the record and the measure.
     pub fn differ_beside_level(&self) -> bool {
         self.differ_beside_level
+    }
+
+    /// The warning that different records have one name: their scales differ at one level.
+    fn shared_names(&self) -> Option<String> {
+        let differ = |[least, largest]: &[f64; 2]| *largest > least * (1.0 + EQUAL_SCALES);
+        let shared: BTreeSet<&str> =
+            self.scales.values().filter(|(_, range)| differ(range)).map(|(record, _)| record.as_str()).collect();
+        let others = match shared.len() {
+            0 | 1 => String::new(),
+            count => format!(", and {} other name(s),", count - 1),
+        };
+        shared.first().map(|name| {
+            format!(
+                "several records are called `{name}`{others}: their scales differ at one level, and they count as one record; give each record a name of its own"
+            )
+        })
     }
 
     /// Columns that are neither the record nor the measure, and whose values differ; runs that were cut.
@@ -138,6 +167,6 @@ impl Pooling<'_> {
                 columns.peaks.len()
             )
         });
-        pooled.chain(cut).chain(repeated).chain(short).collect()
+        pooled.chain(self.shared_names()).chain(cut).chain(repeated).chain(short).collect()
     }
 }
