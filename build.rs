@@ -1,4 +1,4 @@
-//! Derives the equations of motion of columns of up to N blocks and writes them to `OUT_DIR`. N is `ROCKING_MAX_BLOCKS` if that is set, else
+//! Derives the equations of motion of columns of up to N blocks and writes them to `OUT_DIR`. N is `ROCKING_MAX_BLOCKS` if that has a value, else
 //! the largest enabled feature of `blocks-6` to `blocks-8`, else five.
 
 use std::path::PathBuf;
@@ -15,9 +15,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         println!("cargo::rustc-cfg=has_shared");
     }
     let has_feature = |blocks: &usize| std::env::var_os(format!("CARGO_FEATURE_BLOCKS_{blocks}")).is_some();
-    let max_blocks = match std::env::var("ROCKING_MAX_BLOCKS").as_deref() {
+    let max_blocks = match std::env::var("ROCKING_MAX_BLOCKS").as_deref().map(str::trim) {
         Ok("") | Err(_) => (6..=8).rev().find(has_feature).unwrap_or(DEFAULT_MAX_BLOCKS),
-        Ok(text) => text.trim().parse().map_err(|_| format!("ROCKING_MAX_BLOCKS = `{text}`: give 1 to 12"))?,
+        Ok(text) => text.parse().map_err(|_| format!("ROCKING_MAX_BLOCKS = `{text}`: give a number, 1 to 12"))?,
     };
     let out = PathBuf::from(std::env::var("OUT_DIR")?);
     let dump = std::env::var_os("ROCKING_DUMP_DIR").map(PathBuf::from);

@@ -535,7 +535,7 @@ impl Response {
         }
         if (1..=most).contains(&blocks) {
             // This build has all modes of such a column: other equations were supplied.
-            return "the supplied equations lack modes of this column, or have another gravity: these ran on the equations of this build, perhaps not \
+            return "the supplied equations lack modes of this column, or have another gravity or number of free angles: these ran on the equations of this build, perhaps not \
                     what was meant (supply equations of these blocks and this gravity; baked ones are of aligned rectangles)"
                 .into();
         }

@@ -209,6 +209,17 @@ fn a_check_says_towards_which_side_a_displaced_column_is_weak() {
         &["0.2000 g opens no interface of the column at rest, which takes 0.2444 g towards its weaker side"],
     );
     assert_has(&told("-0.4"), &["is enough to open", "opens at 0.2444 g towards its weaker side"]);
+    // In JSON, without friction as well, the side on which the motion opens the base: |0.4 g sin| reaches either threshold.
+    for (amplitude, by) in [(-0.4, 0.24444), (0.5, 0.42222)] {
+        let contact =
+            Folder::with("scene.toml", &scene(&amplitude.to_string())).answers("check scene.toml --json")["contacts"]
+                [0]
+            .clone();
+        let number = |name: &str| contact[name].as_f64().expect("a number");
+        assert!((number("opened_by") / 9.81 - by).abs() < 1e-5 && (number("opens_at") / 9.81 - 0.24444).abs() < 1e-5);
+        let expected = (by / f64::abs(amplitude)).asin() * 0.8 / std::f64::consts::TAU;
+        assert!((number("opens_from") - expected).abs() < 1e-5 && contact["coefficient"].is_null(), "{contact}");
+    }
     // The ratio of either side is another than that of the stack above the middle of its contact, which the table has.
     let note = "Housner's ratio of a displaced stack is that of the stack above the middle of its contact";
     assert_has(&told("0.4"), &[note]);

@@ -40,9 +40,10 @@ fn derivations_are_printed_as_text_as_code_and_as_latex() {
         &["//   carried_mass_2 = mass_2", "use rocking::program::{Carried, MovingProgram, MovingState, Scalar};"],
     );
     let code = folder.succeeds("derive --blocks 2 --mode 1.1 --format rust");
-    let parts = ["impl<S: Scalar> StepProgram<S> for Dof2", "SeriesProgram<S> for SeriesDof2", "fn scene_constants"];
+    let parts =
+        ["impl<S: Scalar> StepProgram<S> for Dof2", "SeriesProgram<S> for SeriesDof2", "pub fn scene_constants"];
     assert_has(&code, &parts);
-    assert_has(&code, &["use rocking::program::{", "fn energy_scene_constants", "fn series_scene_constants"]);
+    assert_has(&code, &["use rocking::program::{", "pub fn energy_scene_constants", "pub fn series_scene_constants"]);
     let latex = folder.succeeds("derive --blocks 3 --mode 1.5 --format latex");
     assert_has(&latex, &["\\documentclass", "mode 1.5", "$(+,0,0)$", "J_{1} \\ddot\\theta_{1}", "\\end{document}\n"]);
     for mode in ["3.2", "1.0", "18446744073709551616.1"] {

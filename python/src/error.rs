@@ -41,7 +41,10 @@ pub fn scene(py: Python<'_>, error: &SceneFileError) -> PyErr {
         }
         SceneFileError::Unreadable { file, problem } => {
             // A file in a folder that may not be entered is not known to be missing.
-            let is_missing = file.try_exists().is_ok_and(|exists| !exists);
+            let is_missing = match file.try_exists() {
+                Ok(exists) => !exists,
+                Err(error) => error.kind() == ErrorKind::NotADirectory,
+            };
             let class = if is_missing { "MissingFileError" } else { "SceneError" };
             exception(py, class, (text, shown(file), 0, "", problem))
         }

@@ -312,7 +312,7 @@ def test_a_record_that_is_not_there_is_a_file_not_found(tmp_path: Path) -> None:
 
 def test_relative_records_are_those_of_the_folder_in_which_a_scene_was_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """After a change of folder another record of the same name was run, without a word."""
-    for folder, pga in (("a", 1.5), ("b", 6.0)):
+    for folder, pga in (("a", 5.0), ("b", 9.0)):
         (tmp_path / folder).mkdir()
         rk.Record.synthetic(1, duration=4.0, pga=pga).to_csv(tmp_path / folder / "acc.csv")
     monkeypatch.chdir(tmp_path / "a")
@@ -321,7 +321,14 @@ def test_relative_records_are_those_of_the_folder_in_which_a_scene_was_made(tmp_
     text = '[column]\nblocks = 2\nhalf_width = 0.4\nhalf_height = 1.6\n[excitation.horizontal]\nkind = "record"\nfile = "acc.csv"\n'
     scenes = [made, rk.Scene(COLUMN, rk.total(rk.Motion(**motion))), rk.Scene.from_toml(text), rk.Scene.from_dict(rk.Scene.from_toml(text).keys)]
     scenes.append(rk.Scene.from_dict({**made.keys, "excitation": {"horizontal": motion}}))
+    assert all(scene == scene.replace() == rk.Scene.from_dict(scene.keys) for scene in scenes)
+    upright = rk.Scene(COLUMN, t_end=5.0)
+    scenes += [upright.replace(horizontal=motion), upright.replace(horizontal=rk.pulse("half-sine", amplitude=1.0, omega=5.0)).replace(horizontal=motion)]
+    scenes.append(rk.Scene.from_toml(text, file="<notebook>"))
     before = [rk.simulate(scene).peak_theta for scene in scenes]
+    assert all(peaks.any() for peaks in before)
+    files = rk.Sweep(made, {"excitation.horizontal.file": ["acc.csv"]}, ask="peaks")
+    peaks_of_files = files.table()
     sweep = rk.Sweep(made, {"eta": [0.9]}, ask="peaks")
     monkeypatch.chdir(tmp_path / "b")
     for scene, peaks in zip(scenes, before):
@@ -329,6 +336,7 @@ def test_relative_records_are_those_of_the_folder_in_which_a_scene_was_made(tmp_
         scene.save(tmp_path / "b" / "saved.toml")
         for again in (scene, replaced, pickle.loads(pickle.dumps(scene)).replace(title="pickled"), rk.Scene.load("saved.toml")):
             np.testing.assert_array_equal(rk.simulate(again).peak_theta, peaks)
+    assert pickle.loads(pickle.dumps(files)).table().equals(peaks_of_files)
     assert rk.Sweep(made, {"eta": [0.9]}, ask="peaks").table().equals(sweep.table()) and pickle.loads(pickle.dumps(sweep)).table().equals(sweep.table())
 
 
@@ -372,6 +380,12 @@ def test_one_of_several_faults_comes_back_from_workers() -> None:
 
 
 def test_a_folder_that_may_not_be_entered_is_not_missing(monkeypatch: pytest.MonkeyPatch) -> None:
+    # So long a name cannot be asked for, whoever asks: that is not the same as a file that is not there.
+    for load in (rk.Scene.load, rk.Sweep.load, rk.Study.load, rk.records):
+        with pytest.raises(rk.SceneError) as unknown:
+            load("n" * 5000)
+        assert not isinstance(unknown.value, FileNotFoundError)
+
     def refused(path: Any, *others: Any, **named: Any) -> Any:
         raise PermissionError(errno.EACCES, "Permission denied", path)
 

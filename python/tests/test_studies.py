@@ -718,12 +718,20 @@ def test_what_would_change_an_answer_is_told() -> None:
     for changed, told in (
         (table.assign(column=np.repeat(["a", "b"], 15)), "all 2 values of `column` make one curve"),
         (pd.concat([table, table], ignore_index=True).assign(index=range(60)), r"30 run\(s\) have all settings of a run above"),
-        (pd.concat([table, table.assign(scale=2.5)], ignore_index=True).assign(index=range(60)), "several records are called 'r0', and 4 other name"),
+        (pd.concat([table, table.assign(scale=2.5)], ignore_index=True).assign(index=range(60)), "different records share 5 names, such as 'r0'"),
         (table.assign(truncated=(table.outcome == "rocks").astype(int)), r"15 run\(s\) end before their ground motion"),
         (table.assign(peak_2=table.peak_2.where(table.outcome != "rocks")), r"15 run\(s\) that stand have no `peak_2`"),
     ):
         with pytest.warns(UserWarning, match=told):
             rk.Study(changed).fragility("peak > 0.35", replicates=0)
+    for fits in ("sa_g(0.5)", "sa(0.5 0.05)"):
+        with pytest.warns(UserWarning, match="different records share 5 names"):
+            rk.Study(pd.concat([table, table.assign(scale=2.5)], ignore_index=True).assign(index=range(60)).rename(columns={"pgv": fits})).stripes
+    with warnings.catch_warnings():
+        # A column of this name that has no numbers, or categories of them, is none of scales.
+        warnings.simplefilter("error")
+        for scale in ("small", pd.NA, pd.Categorical([1.5] * 30)):
+            rk.Study(table.assign(scale=scale)).fragility("overturned", replicates=0)
     with warnings.catch_warnings():
         # In units of uplift a record has another scale for another column.
         warnings.simplefilter("error")

@@ -174,8 +174,8 @@ impl<D: Dynamics + Send + Sync + 'static> Erased for D {
 }
 
 impl Mode {
-    /// A mode on equations of one's own: dynamics of as many free angles as the pattern has, integrated with this gravity `[m/s²]`. A run takes others in place of
-    /// those with another number of angles.
+    /// A mode on equations of one's own: dynamics of as many free angles as the pattern has, integrated with this gravity `[m/s²]`. A run replaces dynamics
+    /// with another number of angles by equations of the library.
     pub fn from_dynamics(pattern: Pattern, gravity: f64, dynamics: impl Dynamics + Send + Sync + 'static) -> Mode {
         Mode { pattern, gravity, equations: Arc::new(dynamics) }
     }

@@ -246,7 +246,10 @@ impl Reader<'_> {
             place: table.find(key),
             key: table.dotted(key),
             record: path.clone(),
-            problem: format!("{error}; its path is relative to {FILE_THAT_NAMES}"),
+            problem: match Path::new(name).is_absolute() {
+                true => error.to_string(),
+                false => format!("{error}; its path is relative to {FILE_THAT_NAMES}"),
+            },
             is_missing: error.kind() == ErrorKind::NotFound,
         })?;
         let refused = |error: RecordError| Fault::of_record(table, key, path.clone(), error.to_string());

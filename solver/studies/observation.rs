@@ -161,7 +161,9 @@ pub const EQUAL_SCALES: f64 = 1e-9;
 /// Whether a record has one scale at a level of a measure, whichever column it shakes, by the heading of the measure: `pga_g`, `excitation.horizontal.pgv`. Runs
 /// of one record at one level whose scales differ are then of different records.
 pub fn has_one_scale(heading: &str) -> bool {
-    let measure = heading.rsplit('.').next().unwrap_or(heading);
+    // The point in the period of a spectral acceleration parts no key.
+    let (key, period) = heading.split_at(heading.find('(').unwrap_or(heading.len()));
+    let measure = format!("{}{period}", key.rsplit('.').next().unwrap_or(key));
     measure.parse().is_ok_and(|intensity: Intensity| intensity.unit != IntensityUnit::Uplift)
 }
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import operator
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import numpy as np
@@ -50,7 +50,7 @@ def numbers(name: str, values: Any) -> npt.NDArray[np.float64]:
         array = np.asarray(list(values) if isinstance(values, Iterator) else values)
     except ValueError:
         raise TypeError(f"{name} is not regular; give a list or an array of numbers") from None
-    if array.ndim == 0 and isinstance(values, (Iterable, Mapping)) and not isinstance(values, (str, bytes)) and not hasattr(values, "__array__"):
+    if array.ndim == 0 and isinstance(values, Iterable) and not isinstance(values, (str, bytes)) and not hasattr(values, "__array__"):
         raise TypeError(f"{name} is of {type(values).__name__}; give a list or an array of numbers")
     if array.dtype.kind == "O":
         items = [number(f"an item of {name}" if array.ndim else name, item) for item in array.ravel().tolist()]

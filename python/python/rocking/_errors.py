@@ -16,6 +16,10 @@ class RockingError(Exception):
         return str(self.args[0]) if self.args else ""
 
 
+#: Attributes of a :class:`SceneError` that are made of its arguments.
+MADE = ("file", "line", "key", "problem", "remedy", "record", "faults")
+
+
 class SceneError(RockingError, ValueError):
     """A scene, a sweep or a study is refused.
 
@@ -60,8 +64,12 @@ class SceneError(RockingError, ValueError):
     def __reduce__(self) -> tuple[Any, ...]:
         # Pickled by its own arguments. Workers of `distributed` take another way for errors that do not say how: it fails for a class that is an OSError and a
         # ValueError, and it does not end for one of several faults that was raised again, as that stands in the arguments of the error in whose handling it was.
-        *own, faults = self.args
-        return _again, (type(self), own, [(type(fault), fault.args[:-1]) for fault in faults])
+        faults = [] if self.faults[0] is self else self.faults
+        given = {name: value for name, value in self.__dict__.items() if name not in MADE}
+        return _again, (type(self), self._arguments(), [(type(fault), fault._arguments()) for fault in faults]), given
+
+    def _arguments(self) -> list[Any]:
+        return [str(self), self.file, self.line, self.key, self.problem, self.remedy, self.record]
 
 
 def _again(kind: type[SceneError], own: Sequence[Any], faults: Sequence[tuple[type[SceneError], Sequence[Any]]] = ()) -> SceneError:

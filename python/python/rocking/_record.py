@@ -518,11 +518,12 @@ def records(
     path = os.path.abspath(given)
     try:
         is_folder = stat.S_ISDIR(os.stat(path).st_mode)
-    except (FileNotFoundError, NotADirectoryError):
+    except (FileNotFoundError, NotADirectoryError, ValueError):
         raise MissingFileError(f"{path}: there is no such folder; check the path", path) from None
     except OSError as failed:
         problem = failed.strerror or str(failed)
-        raise SceneError(f"{path}: {problem}; check the permissions", path, key="records.folder", problem=problem, remedy="check the permissions") from None
+        remedy = "check the permissions" if isinstance(failed, PermissionError) else "check the path"
+        raise SceneError(f"{path}: {problem}; {remedy}", path, key="records.folder", problem=problem, remedy=remedy) from None
     if not is_folder:
         raise SceneError(f"{path}: this is no folder; give one of record files", path, key="records.folder", problem="this is no folder")
     keys: dict[str, Any] = {

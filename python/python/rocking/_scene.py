@@ -335,9 +335,10 @@ class Scene:
             keys["excitation"] = copied(motions)
         for key, value in _dotted(arguments):
             _put(keys, key, copied(value))
-        self._become(_of_this_folder(keys), WITHOUT_FILE)
+        self._become(keys, WITHOUT_FILE)
 
     def _become(self, keys: dict[str, Any], file: str, native: _rocking.Scene | None = None, text: str | None = None) -> None:
+        keys = _of_this_folder(keys) if is_label(file) else keys
         self._keys, self._file, self._text = keys, file, text
         if native is None:
             shown = keys
@@ -379,14 +380,17 @@ class Scene:
 
     @classmethod
     def from_toml(cls, text: str, *, file: str | os.PathLike[str] = WITHOUT_FILE) -> "Scene":
-        """Reads the text of a scene file; ``file`` is named in errors, and records are found relative to it, or to the present folder. Raises as :meth:`load`."""
+        """Reads the text of a scene file; ``file`` is named in errors, and records are found relative to it. Raises as :meth:`load`.
+
+        Without a file, or with a name in angle brackets, they are found relative to the present folder. The text of such a scene with such a record is written
+        anew, without its comments, with the absolute path of the record.
+        """
         if not isinstance(text, str):
             raise TypeError(f"text is of {type(text).__name__}; give the text of a scene, or keys to Scene.from_dict")
         path = _place(file)
+        # Errors have lines of this text.
         native, keys = _rocking.Scene.from_toml(text, path), _rocking.from_toml(text)
-        if path == WITHOUT_FILE and _relative_files(keys):
-            return cls._of(_of_this_folder(keys), path, native)
-        return cls._of(keys, path, native, text)
+        return cls._of(keys, path) if is_label(path) and _relative_files(keys) else cls._of(keys, path, native, text)
 
     @classmethod
     def from_dict(cls, keys: Mapping[str, Any], *, file: str | os.PathLike[str] = WITHOUT_FILE) -> "Scene":
@@ -394,8 +398,7 @@ class Scene:
         errors name ``<scene>``."""
         if not isinstance(keys, Mapping):
             raise TypeError(f"keys are of {type(keys).__name__}; give a dictionary of the keys of a scene file")
-        path = _place(file)
-        return cls._of(_of_this_folder(copied(keys)) if path == WITHOUT_FILE else copied(keys), path)
+        return cls._of(copied(keys), _place(file))
 
     def replace(
         self,
@@ -482,8 +485,9 @@ class Scene:
 
         Of the state at t = 0 only ``slide`` counts; angles, rates and places of blocks (``x``, ``y``) do not. Each contact is taken by itself, with the stack above as one body and the others closed. ``coefficient`` is that of static friction; ``slides_at`` and
         ``opens_at`` [m/s²] are horizontal accelerations of the ground, without vertical motion, at which the contact slides, and opens on the side on which it
-        takes less. ``slides_from`` and ``opens_from`` [s] are the first times at which this ground motion, both components, does so, and
-        ``weightless_from`` [s] that at which the vertical one takes all weight. ``at_pga``: whether the stack ``rests``, ``slides``, ``rocks`` or
+        takes less; ``opens_at`` is negative for a stack that leans beyond its support. ``slides_from`` and ``opens_from`` [s] are the first times at which this
+        ground motion, both components, does so. At ``weightless_from`` [s] the vertical one takes all weight from a contact with friction that neither slides
+        nor opens before. ``at_pga``: whether the stack ``rests``, ``slides``, ``rocks`` or
         ``slides-and-rocks`` under the largest horizontal acceleration, and ``coefficient_to_rock`` the least coefficient with which it would rock without sliding;
         neither where the ground moves vertically, the stack is displaced, or the contact slides and opens at the same acceleration. What does not happen is
         blank.
@@ -506,7 +510,7 @@ class Scene:
             Where the scene names records relative to its own folder and the file is for another one: it would name other records.
         """
         path = path_text("file", file)
-        own, new = os.path.dirname(self._file), os.path.dirname(os.path.abspath(path))
+        own, new = os.path.dirname(os.path.abspath(self._file)), os.path.dirname(os.path.abspath(path))
         named = _relative_files(self.keys)
         if named and own != new:
             raise ValueError(f"the scene names {named[0]} relative to {own}; save it there, or name the record by its absolute path")
@@ -558,7 +562,12 @@ def _dotted(arguments: Mapping[str, Any]) -> Iterable[tuple[str, Any]]:
 def _place(file: str | os.PathLike[str]) -> str:
     """The file of a scene as an absolute path: its records may be read later, by `replace` or another process, in another folder."""
     path = path_text("file", file)
-    return path if path == WITHOUT_FILE else os.path.abspath(path)
+    return path if is_label(path) else os.path.abspath(path)
+
+
+def is_label(file: str) -> bool:
+    """Whether this is a name for errors, in angle brackets, of what has no file."""
+    return file.startswith("<") and file.endswith(">")
 
 
 def _relative_files(keys: Mapping[str, Any]) -> list[str]:

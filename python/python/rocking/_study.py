@@ -360,12 +360,15 @@ class Study:
         rounding = _rocking.equal_scales(self.measure)
         if rounding is None:
             return
-        scales = table.assign(scale=np.abs(_floats(table, "scale"))).groupby([*of_records, self.measure, *keys], dropna=False, sort=False)["scale"]
+        # A column of this name may be another one.
+        sizes = np.abs(pd.to_numeric(table["scale"].astype(object), errors="coerce"))
+        scales = table.assign(scale=sizes).groupby([*of_records, self.measure, *keys], dropna=False, sort=False, observed=True)["scale"]
         differ = scales.max() > scales.min() * (1.0 + rounding)
         shared = list(dict.fromkeys(row[: len(of_records)] for row in differ[differ].index))
         if shared:
-            others = f", and {len(shared) - 1} other name(s)," if len(shared) > 1 else ""
-            told = f"several records are called {', '.join(map(_name, shared[0]))!r}{others}: their scales differ at one level, and they count as one record"
+            first = ", ".join(map(_name, shared[0]))
+            share = f"the name {first!r}" if len(shared) == 1 else f"{len(shared)} names, such as {first!r}"
+            told = f"different records share {share}: their scales differ at one level, and they count as one"
             warn([f"{told}; give each record a name of its own, as with Record.named"])
 
     def _runs(self) -> "Runs":

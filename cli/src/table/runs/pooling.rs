@@ -117,15 +117,14 @@ impl Pooling<'_> {
         let differ = |[least, largest]: &[f64; 2]| *largest > least * (1.0 + EQUAL_SCALES);
         let shared: BTreeSet<&str> =
             self.scales.values().filter(|(_, range)| differ(range)).map(|(record, _)| record.as_str()).collect();
-        let others = match shared.len() {
-            0 | 1 => String::new(),
-            count => format!(", and {} other name(s),", count - 1),
+        let first = shared.first()?;
+        let names = match shared.len() {
+            1 => format!("the name `{first}`"),
+            count => format!("{count} names, such as `{first}`"),
         };
-        shared.first().map(|name| {
-            format!(
-                "several records are called `{name}`{others}: their scales differ at one level, and they count as one record; give each record a name of its own"
-            )
-        })
+        Some(format!(
+            "different records share {names}: their scales differ at one level, and they count as one; give each record a name of its own"
+        ))
     }
 
     /// Columns that are neither the record nor the measure, and whose values differ; runs that were cut.
