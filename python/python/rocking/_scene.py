@@ -483,14 +483,14 @@ class Scene:
     def contacts(self) -> pd.DataFrame:
         """What the ground motion does to each contact of the column at rest, base first, a row each: which slides or opens first, and when. Nothing is run.
 
-        Of the state at t = 0 only ``slide`` counts; angles, rates and places of blocks (``x``, ``y``) do not. Each contact is taken by itself, with the stack above as one body and the others closed. ``coefficient`` is that of static friction; ``slides_at`` and
-        ``opens_at`` [m/s²] are horizontal accelerations of the ground, without vertical motion, at which the contact slides, and opens on the side on which it
-        takes less; ``opens_at`` is negative for a stack that leans beyond its support. ``slides_from`` and ``opens_from`` [s] are the first times at which this
-        ground motion, both components, does so. At ``weightless_from`` [s] the vertical one takes all weight from a contact with friction that neither slides
-        nor opens before. ``at_pga``: whether the stack ``rests``, ``slides``, ``rocks`` or
-        ``slides-and-rocks`` under the largest horizontal acceleration, and ``coefficient_to_rock`` the least coefficient with which it would rock without sliding;
-        neither where the ground moves vertically, the stack is displaced, or the contact slides and opens at the same acceleration. What does not happen is
-        blank.
+        Of the state at t = 0 only ``slide`` counts; angles, rates and places of blocks (``x``, ``y``) do not. Each contact is taken by itself, with the stack
+        above as one body and the others closed. ``coefficient`` is that of static friction; ``slides_at`` and ``opens_at`` [m/s²] are horizontal
+        accelerations of the ground, without vertical motion, at which the contact slides, and opens on the side on which it takes less; ``opens_at`` is
+        negative for a stack that leans beyond its support. ``slides_from`` and ``opens_from`` [s] are the first times at which this ground motion, both
+        components, does so. At ``weightless_from`` [s] the vertical one takes all weight from a contact with friction that neither slides nor opens before.
+        ``at_pga``: whether the stack ``rests``, ``slides``, ``rocks`` or ``slides-and-rocks`` under the largest horizontal acceleration, and
+        ``coefficient_to_rock`` the least coefficient with which it would rock without sliding; neither where the ground moves vertically, the stack is
+        displaced, or the contact slides and opens at the same acceleration. What does not happen is blank.
 
         >>> from rocking import pulse
         >>> statue = Scene([Block(half_width=0.25, half_height=1.0)], pulse("half-sine", amplitude_g=1.0, period=1.0), friction=0.5)
@@ -579,13 +579,15 @@ def _of_this_folder(keys: dict[str, Any]) -> dict[str, Any]:
     return {**keys, "excitation": _absolute(keys["excitation"])} if _relative_files(keys) else keys
 
 
+def absolute(file: Any) -> Any:
+    """The absolute path of a file; what is no path, as it is."""
+    return os.path.abspath(os.fspath(file)) if file and isinstance(file, (str, os.PathLike)) else file
+
+
 def _absolute(motion: Any) -> Any:
     """Keys of the ground motion with absolute paths of files."""
     if isinstance(motion, Mapping):
-        found = {
-            key: os.path.abspath(os.fspath(value)) if key in FILE_KEYS and value and isinstance(value, (str, os.PathLike)) else _absolute(value)
-            for key, value in motion.items()
-        }
+        found = {key: absolute(value) if key in FILE_KEYS else _absolute(value) for key, value in motion.items()}
         return Motion(**found) if isinstance(motion, Motion) else found
     return [_absolute(item) for item in motion] if isinstance(motion, list) else motion
 

@@ -6,6 +6,7 @@ import os
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal, overload
 
+import numpy as np
 import pandas as pd
 
 from . import _rocking
@@ -13,20 +14,13 @@ from ._arguments import path_text, whole
 from ._errors import warn
 from ._frame import arrow, frame
 from ._keys import copied
-from ._scene import FILE_KEYS, POINT, Scene, is_label
+from ._scene import FILE_KEYS, POINT, Scene, absolute, is_label
 
 if TYPE_CHECKING:
     import pyarrow
 
 # Points whose scenes are read for warnings.
 POINTS_READ = 1000
-
-
-def _absolute_files(values: Any) -> Any:
-    """Files on an axis with their absolute paths."""
-    if not isinstance(values, list):
-        return values
-    return [os.path.abspath(os.fspath(value)) if value and isinstance(value, (str, os.PathLike)) else value for value in values]
 
 
 class Sweep:
@@ -77,7 +71,8 @@ class Sweep:
         axes, sampling = copied(axes), copied(sampling)
         if is_label(scene.file):
             # As the records of the scene: those of the present folder.
-            axes = {key: _absolute_files(values) if str(key).rsplit(".")[-1] in FILE_KEYS else values for key, values in axes.items()}
+            files = {key for key, values in axes.items() if str(key).rsplit(".", 1)[-1] in FILE_KEYS and isinstance(values, (list, np.ndarray))}
+            axes = {key: list(map(absolute, values)) if key in files else values for key, values in axes.items()}
         self._source: tuple[Any, ...] = (scene, axes, ask, combine, sampling)
         drawn = {} if sampling is None else {"sampling": sampling}
         text = _rocking.to_toml({"ask": ask, "combine": combine, **drawn, "axes": axes})
