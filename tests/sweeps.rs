@@ -3,6 +3,7 @@
 use rocking::scene_file::{Setting, Template};
 use rocking::sweep::{Ask, Axis, Combine, Sweep};
 use rocking::trust::Degree;
+use std::ops::ControlFlow;
 use std::path::Path;
 
 fn sweep(combine: Combine, axes: &[(&str, &[f64])]) -> Sweep {
@@ -87,6 +88,18 @@ fn points_that_are_spread_over_a_sweep_hold_its_first_and_last() {
         assert_eq!(sweep.evenly_spread(most).collect::<Vec<_>>(), points, "{most}");
     }
     assert!(sweep.evenly_spread(3000).eq(0..2000));
+}
+
+#[test]
+fn reading_scenes_for_their_warnings_can_be_stopped() {
+    let axes: Vec<f64> = (1..=50).map(|size| f64::from(size) * 0.1).collect();
+    let sweep = sweep(Combine::Cartesian, &[("excitation.horizontal.amplitude_g", &axes)]);
+    let mut reads = 0;
+    sweep.warnings_observed(0..sweep.len(), 1000, || {
+        reads += 1;
+        if reads == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    assert_eq!(reads, 3);
 }
 
 /// Half of what opens the base moves nothing: each contact carries the weight above it.
