@@ -20,8 +20,9 @@ const AT_ONCE: f64 = 1e-9;
 const WEIGHTLESS: f64 = 1e-9;
 
 /// A contact of a column at rest under the ground motion of a scene ([`Scene::contacts_at_rest`]). Accelerations are horizontal ones of the ground, without
-/// vertical motion; times count both components. Only the first contact to slide or open is sure to do so: it may keep the others from it. Of what happens at
-/// the same time, as at a jump of the ground's acceleration, one alone is sure, and [`ContactAtRest::at_pga`], where there is one, says which of a contact.
+/// vertical motion; times count both components. Only the first contact to slide or open is sure to do so: it may keep the others from it. Where it
+/// slides and opens at the same time, as at a jump of the ground's acceleration, only one of the two is sure; [`ContactAtRest::at_pga`], where there is one, says
+/// which.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ContactAtRest {
@@ -33,7 +34,7 @@ pub struct ContactAtRest {
     pub slides_at: Option<f64>,
     /// Acceleration at which the contact opens, on the side on which it takes less `[m/s²]`; negative for a stack that leans beyond its support.
     pub opens_at: f64,
-    /// The same for the side on which this ground motion opens it first `[m/s²]`; `None` if it opens neither.
+    /// Acceleration at which the contact opens on the side on which this ground motion opens it first `[m/s²]`; `None` if the ground motion opens neither side.
     pub opened_by: Option<f64>,
     /// Whether both sides take the same.
     pub is_symmetric: bool,
@@ -52,6 +53,11 @@ pub struct ContactAtRest {
 }
 
 impl ContactAtRest {
+    /// Whether the ground motion slides and opens the contact at the same time.
+    pub fn slides_and_opens_at_once(&self) -> bool {
+        are_equal(self.slides_from, self.opens_from)
+    }
+
     /// Whether the side on which the ground motion opens the contact first is the one that takes less; `None` where both take the same, or it opens neither.
     pub fn opens_to_its_weaker_side(&self) -> Option<bool> {
         let own = self.opened_by.filter(|_| !self.is_symmetric);
@@ -103,8 +109,8 @@ impl UnderPeak {
 
 impl Scene {
     /// What the ground motion does to each contact of the column at rest, base first: when it slides or opens if none of the others has before, and what its
-    /// peak asks of it. Of the state at `t = 0` only the column's slides count, not [`Scene::initial`]. Nothing happens in a scene that is not valid, and friction
-    /// does not count there. The search takes as long as the ground motion up to `t_end` has periods, and has no end of its own.
+    /// peak asks of it. Of the state at `t = 0` only the column's slides count, not [`Scene::initial`]. For a scene that is not valid there are thresholds of opening
+    /// alone. The search takes time in proportion to the periods of the ground motion up to `t_end`, and cannot be cancelled.
     ///
     /// ```
     /// use rocking::{Column, Motion, Scene};
@@ -136,7 +142,7 @@ impl Scene {
             let (opens_at, slides_at) =
                 (stack.uplift_acceleration(), coefficients.map(|[fixed, _]| fixed * stack.gravity));
             let is_symmetric = is_symmetric(column, interface);
-            // What follows where both are passed at once, no formula of one of them says.
+            // Where the contact slides and opens at the same acceleration, neither formula holds.
             let is_tie = slides_at.is_some_and(|slides| (slides - opens_at).abs() <= ROUNDING * opens_at.abs());
             let has_one_peak = is_valid && self.excitation.vertical.is_none() && is_symmetric && !is_tie;
             let peak = has_one_peak.then(|| UnderPeak::of(&stack, coefficients.unwrap_or([f64::INFINITY; 2]), pga));
@@ -152,8 +158,7 @@ impl Scene {
                 is_symmetric,
                 slides_from,
                 opens_from,
-                weightless_from: slides_from
-                    .filter(|t| self.is_weightless(*t) && opens_from.is_some_and(|opens| (t - opens).abs() <= AT_ONCE)),
+                weightless_from: slides_from.filter(|t| are_equal(slides_from, opens_from) && self.is_weightless(*t)),
                 at_pga: peak.map(|(does, _)| does),
                 coefficient_to_rock: peak.and_then(|(_, needed)| needed),
             }
@@ -166,6 +171,11 @@ impl Scene {
         let lift = self.excitation.vertical.as_ref().map_or(0.0, |motion| motion.value(t));
         lift <= -self.column.gravity() * (1.0 - WEIGHTLESS)
     }
+}
+
+/// Whether there are both times `[s]`, and they are the same.
+fn are_equal(a: Option<f64>, b: Option<f64>) -> bool {
+    a.zip(b).is_some_and(|(a, b)| (a - b).abs() <= AT_ONCE)
 }
 
 /// Whether the centre of gravity of the stack is above the middle of its contact; the offset may be rounding of a slide.

@@ -4,9 +4,6 @@ use crate::number::significant;
 use rocking::{ContactAtRest, UnderPeak};
 use std::cmp::Ordering::Equal;
 
-/// Times that differ by no more than this are one `[s]`: each is found to rounding.
-const AT_ONCE: f64 = 1e-9;
-
 /// What slides or opens first at a contact with friction.
 pub fn first_motion(contact: &ContactAtRest, gravity: f64) -> String {
     let interface = contact.interface;
@@ -45,7 +42,7 @@ fn first_in_time(contact: &ContactAtRest) -> String {
         (Some(t), ..) => format!("it has no weight left at t = {t:.4} s, and flies"),
         (_, None, None) => "neither".into(),
         (_, Some(slides), None) => format!("it slides, at t = {slides:.4} s"),
-        (_, Some(slides), Some(opens)) if (slides - opens).abs() <= AT_ONCE => {
+        (_, Some(_), Some(opens)) if contact.slides_and_opens_at_once() => {
             format!("it passes both at t = {opens:.4} s")
         }
         (_, Some(slides), Some(opens)) if slides < opens => format!("it slides first, at t = {slides:.4} s"),
