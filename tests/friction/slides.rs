@@ -430,6 +430,25 @@ fn a_slide_that_goes_on_is_said() {
     assert!(response.truncated && !response.slides_on && response.cuts_ground_motion());
 }
 
+/// Without friction a slide never ends. One that is as slow as the errors of the run has its place all the same: after a pulse that leaves the ground
+/// where it is at rest, and not after one that leaves the block behind.
+#[test]
+fn a_slide_without_friction_ends_where_nothing_moves() {
+    let mut scene = scene(vec![Block::rectangle(0.5, 0.05, 1.0)], vec![0.0]);
+    let (amplitude, omega, start) = (0.5 * GRAVITY, TAU, 0.0);
+    scene.options.t_end = 3.0;
+    // The ground goes 2π A / ω² in the whole sine; in half of it π A / ω², and on with the velocity 2 A / ω.
+    for (motion, slides_on, way) in [
+        (Motion::SinePulse { amplitude, omega, start }, false, amplitude / omega),
+        (Motion::HalfSine { amplitude, omega, start }, true, 5.5 * amplitude / omega),
+    ] {
+        scene.excitation.horizontal = Some(motion);
+        let response = run(&scene);
+        assert_eq!(response.slides_on, slides_on, "{way}");
+        assert_relative_eq!(slide(&response, 0), -way, max_relative = 1e-9);
+    }
+}
+
 /// Newmark's block stops at `A t_1/μ` = 0.3 s. Its way in the last `τ` is `½ μ g τ²`: 98 µm in 0.01 s, which are to be seen, and 1e-10 m in 1e-5 s.
 #[test]
 fn a_slide_goes_on_as_long_as_its_way_is_visible() {

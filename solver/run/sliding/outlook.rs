@@ -1,21 +1,23 @@
 //! What is open where `t_end` cuts a run in which blocks slide or fly: whether they go on, and whether the column may still overturn.
 
-use crate::column::Column;
 use crate::friction::contact_problem::Coefficients;
 use crate::friction::joint::{Configuration, Slip};
 use crate::run::problem::Problem;
 
-/// Way that a slide has to go until friction under the weight has stopped it, as a share of the column's size, up to which it counts as ended.
+/// Way that a slide has yet to go, as a share of the column's size, up to which it counts as ended.
 const VISIBLE_WAY: f64 = 1e-6;
 
-/// Whether some block is in flight, or slides so fast that it will go on visibly.
-pub fn slides_on(column: &Column, friction: &Coefficients, now: &Configuration) -> bool {
+/// Whether some block is in flight, or slides so fast that it will go on visibly: until friction under the weight stops it, or without friction in as
+/// much time again as the run took.
+pub fn slides_on(problem: &Problem, friction: &Coefficients, now: &Configuration) -> bool {
+    let (column, duration) = (&problem.scene.column, problem.scene.options.t_end);
     let goes_on = |interface: usize| match now.joints[interface].slip() {
         None => true,
         Some(Slip::Sticks) => false,
         Some(Slip::Slides(_)) => {
-            let rate = now.slide_rate[interface];
-            rate * rate > 2.0 * friction.kinetic[interface] * VISIBLE_WAY * column.size() * column.gravity()
+            let rate = now.slide_rate[interface].abs();
+            let (visible, deceleration) = (VISIBLE_WAY * column.size(), friction.kinetic[interface] * column.gravity());
+            rate * rate > 2.0 * deceleration * visible && rate * duration > visible
         }
     };
     (0..now.joints.len()).any(goes_on)

@@ -442,7 +442,7 @@ impl<'p> SlidingRecorder<'p> {
             outlook::may_overturn(self.problem, self.friction, now, &self.report.residual_slide, above_rest)
         };
         let (may_overturn, slides_on) =
-            (is_cut && may_overturn(), is_cut && outlook::slides_on(self.column(), self.friction, now));
+            (is_cut && may_overturn(), is_cut && outlook::slides_on(self.problem, self.friction, now));
         let mut response = self.log.into_response(status, end.t);
         (response.may_overturn, response.slides_on) = (may_overturn, slides_on);
         match stop {
