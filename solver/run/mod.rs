@@ -8,6 +8,7 @@ mod simulator;
 
 // The loop, and what it is a fold of.
 mod event_loop;
+mod segment_time;
 mod state;
 mod stretch;
 mod transition;

@@ -8,6 +8,7 @@ use super::error::SolveError;
 use super::panels::{Panel, Reading};
 use super::phase::{Gap, Phase};
 use super::problem::Problem;
+use super::segment_time::SegmentTime;
 use super::state::{Pace, State};
 use super::stretch::{Ended, Flow, Found, Inside, Over, Stretch};
 use super::stretch_kinds::{Kind, StepEnd, SwingStretch};
@@ -44,6 +45,11 @@ impl Phase {
                 (true, true) => 2,
             };
         }
+    }
+
+    /// The start of the stretch.
+    fn now(&self) -> SegmentTime {
+        SegmentTime { t: self.t, segment: self.segment }
     }
 
     /// Makes the end of the last stretch the start of the next one.
@@ -140,12 +146,14 @@ impl Phase {
     fn certain_outcome(&self, problem: &Problem) -> Option<Over> {
         let x = self.integrator.start();
         let sign = self.gaps[0].across.sign;
-        if self.closed_forms.fall.is_some_and(|fall| {
-            verdict::falls(&fall, problem, (self.segment, self.t), [x[0], x[self.linkage.dof]], sign)
-        }) {
+        if self
+            .closed_forms
+            .fall
+            .is_some_and(|fall| verdict::falls(&fall, problem, self.now(), [x[0], x[self.linkage.dof]], sign))
+        {
             return Some(Over::Falls(0));
         }
-        verdict::stands(problem, (self.segment, self.t), self.pattern(), || self.per_block(x)).then_some(Over::Stands)
+        verdict::stands(problem, self.now(), self.pattern(), || self.per_block(x)).then_some(Over::Stands)
     }
 }
 

@@ -5,6 +5,7 @@ use super::panels::{Panel, Reading};
 use super::problem::Problem;
 use super::progress::{find_at_rest, report_segment};
 use super::rest_guards::GroundWithBounds;
+use super::segment_time::SegmentTime;
 use super::start_from_rest::{earliest_start, is_thrown_open, least_uplift};
 use super::state::State;
 use super::stretch::{Ended, Flow, Inside, Over, Stretch};
@@ -29,12 +30,12 @@ const MOST_PLACES: f64 = 65_536.0;
 /// The column at rest, waiting for the ground to start it.
 #[derive(Default)]
 pub(crate) struct Rest {
-    /// Time `[s]` and segment at which the rest began.
-    since: (f64, usize),
+    /// When the rest began.
+    since: SegmentTime,
     /// End of the hold after a separation `[s]`; openings are not examined before.
     held_until: f64,
-    /// Time `[s]` at the end of the wait, and the segment in which the run continues.
-    until: (f64, usize),
+    /// The end of the wait.
+    until: SegmentTime,
     /// The last segment of the wait.
     last: usize,
     /// Whether nothing starts the column any more.
@@ -46,7 +47,7 @@ pub(crate) struct Rest {
 impl Flow for Rest {
     fn enter(&mut self, _: &Problem, after: &State) {
         self.blocks = after.theta.len();
-        self.since = (after.t, after.segment);
+        self.since = after.now();
         self.held_until = after.contact.hold.until;
     }
 
@@ -57,7 +58,7 @@ impl Flow for Rest {
         progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<Stretch<'_>, SolveError> {
         let limit = least_uplift(&problem.scene.column);
-        let (mut t, mut index) = self.since;
+        let SegmentTime { mut t, segment: mut index } = self.since;
         self.is_final = false;
         let ended = loop {
             let segment = &problem.ground[index];
@@ -82,7 +83,7 @@ impl Flow for Rest {
                 break Ended::Jump;
             }
         };
-        self.until = (t, index);
+        self.until = SegmentTime { t, segment: index };
         Ok(Stretch { end: t, ended: Some(ended), is_coarse: false, inside: self })
     }
 
@@ -103,7 +104,8 @@ impl Inside for Rest {
     fn raise_gaps(&mut self, _: &mut [f64]) {}
 
     fn forces(&mut self, problem: &Problem, note: &mut dyn FnMut(&Panel) -> Reading) {
-        let (column, end, (mut t, first)) = (&problem.scene.column, self.until.0, self.since);
+        let (column, end) = (&problem.scene.column, self.until.t);
+        let SegmentTime { mut t, segment: first } = self.since;
         for segment in &problem.ground[first..=self.last] {
             if t < self.held_until {
                 t = self.held_until.min(segment.end);
@@ -124,7 +126,7 @@ impl Inside for Rest {
 
     /// If nothing starts the column any more, the end is the time at which the rest began.
     fn end<'s>(&mut self, state: &'s mut State) -> &'s mut State {
-        (state.t, state.segment) = if self.is_final { self.since } else { self.until };
+        SegmentTime { t: state.t, segment: state.segment } = if self.is_final { self.since } else { self.until };
         state
     }
 }

@@ -1,5 +1,6 @@
 //! The state of a run: `x⁻` before an event and `x⁺` after it are two values of this type.
 
+use super::segment_time::SegmentTime;
 use crate::numerics::per_block::PerBlock;
 use rocking_codegen::pattern::{Interface, Pattern};
 
@@ -23,6 +24,11 @@ pub(crate) struct State {
 }
 
 impl State {
+    /// When the state is.
+    pub fn now(&self) -> SegmentTime {
+        SegmentTime { t: self.t, segment: self.segment }
+    }
+
     /// The column of this many blocks at rest, at time zero.
     pub fn at_rest(blocks: usize) -> State {
         State {

@@ -6,6 +6,7 @@ use crate::column::Column;
 use crate::mechanics::kinematics::{Posture, rotations};
 use crate::numerics::per_block::{PerBlock, for_size};
 use crate::run::problem::Problem;
+use crate::run::segment_time::SegmentTime;
 use crate::run::state::State;
 use crate::scene::Scene;
 use rocking_codegen::pattern::Pattern;
@@ -34,12 +35,12 @@ fn slack(problem: &Problem) -> f64 {
 /// come brings less energy than it takes to leave the box.
 pub(crate) fn stands(
     problem: &Problem,
-    (segment, t): (usize, f64),
+    now: SegmentTime,
     pattern: &Pattern,
     state: impl FnOnce() -> (PerBlock<f64>, PerBlock<f64>),
 ) -> bool {
     let Some(outcome_bounds) = problem.outcome_bounds.filter(|_| problem.may_stand) else { return false };
-    let Some(impulse) = problem.ground.impulse_from(segment, t, outcome_bounds.impulse) else { return false };
+    let Some(impulse) = problem.ground.impulse_from(now.segment, now.t, outcome_bounds.impulse) else { return false };
     let (theta, omega) = state();
     if outcome_bounds.barrier.is_left(&theta) {
         return false;
@@ -69,7 +70,8 @@ pub(crate) fn may_overturn(scene: &Scene, state: &State) -> bool {
 }
 
 /// Whether one block, leaning to a side at an angle and a rate `[θ, θ̇]`, is certain to overturn before the run ends.
-pub(crate) fn falls(fall: &Fall, problem: &Problem, (segment, t): (usize, f64), x: [f64; 2], sign: f64) -> bool {
+pub(crate) fn falls(fall: &Fall, problem: &Problem, now: SegmentTime, x: [f64; 2], sign: f64) -> bool {
+    let SegmentTime { t, segment } = now;
     let Some(excess) = fall.excess(x, sign, slack(problem)) else { return false };
     let has_fallen_by = |end: f64, push: f64| fall.latest(excess, push).is_some_and(|latest| t + latest < end);
     if has_fallen_by(problem.scene.options.t_end, problem.ground.push_from(sign, segment, t)) {

@@ -16,6 +16,7 @@ use crate::response::Work;
 use crate::run::error::SolveError;
 use crate::run::problem::Problem;
 use crate::run::progress::{STRETCHES_BETWEEN_REPORTS, find_at_rest, report, report_segment};
+use crate::run::segment_time::SegmentTime;
 use crate::run::start_from_rest;
 use crate::scene::DynamicsSource;
 use std::ops::ControlFlow;
@@ -53,30 +54,20 @@ impl<'p> Snapshots<'p> for Resting<'p> {
     }
 }
 
-/// Where steps are in time.
-struct SegmentTime {
-    /// `[s]`
-    t: f64,
-    /// Segment of the ground motion.
-    segment: usize,
-}
-
-impl SegmentTime {
-    /// Goes on to the segment that is not over. Returns why the steps end: there is no such segment, or the ground jumps; otherwise `None`.
-    fn next_segment(&mut self, problem: &Problem) -> Option<SlidingEnded> {
-        loop {
-            let left = problem.ground[self.segment].end - self.t;
-            if self.t + left > self.t {
-                return None;
-            }
-            self.t = problem.ground[self.segment].end;
-            if self.segment + 1 == problem.ground.len() {
-                return Some(SlidingEnded::Over(RunEnd::EndOfTime));
-            }
-            self.segment += 1;
-            if problem.ground[self.segment].jumps {
-                return Some(SlidingEnded::Event(Cause::Jump));
-            }
+/// Goes on to the segment that is not over. Returns why the steps end: there is no such segment, or the ground jumps; otherwise `None`.
+fn next_segment(problem: &Problem, at: &mut SegmentTime) -> Option<SlidingEnded> {
+    loop {
+        let left = problem.ground[at.segment].end - at.t;
+        if at.t + left > at.t {
+            return None;
+        }
+        at.t = problem.ground[at.segment].end;
+        if at.segment + 1 == problem.ground.len() {
+            return Some(SlidingEnded::Over(RunEnd::EndOfTime));
+        }
+        at.segment += 1;
+        if problem.ground[at.segment].jumps {
+            return Some(SlidingEnded::Event(Cause::Jump));
         }
     }
 }
@@ -134,7 +125,7 @@ impl<'p> Mover<'p> {
         let column = column.unwrap_or_else(|_| self.column().clone());
         let ground = self.problem.ground;
         let mut rest = Resting { smooth: self.smooth(from), snapshot: None };
-        let (mut t, mut segment) = (from.t, from.segment);
+        let SegmentTime { mut t, mut segment } = from.now();
         let ended = loop {
             self.work.rest_stretches += 1;
             let own = &ground[segment];
@@ -175,12 +166,12 @@ impl<'p> Mover<'p> {
     ) -> Result<(SlidingState, SlidingEnded), SolveError> {
         let problem = self.problem;
         let list = guards::guards(&from.configuration.joints, &self.friction.kinetic);
-        let mut at = SegmentTime { t: from.t, segment: from.segment };
+        let mut at = from.now();
         let (mut x, mut longest) = (smooth.state(&from.configuration), f64::INFINITY);
         self.work.phases += 1;
         let mut stretches = 0usize;
         let ended = loop {
-            if let Some(ended) = at.next_segment(problem) {
+            if let Some(ended) = next_segment(problem, &mut at) {
                 break ended;
             }
             smooth.segment = &problem.ground[at.segment];

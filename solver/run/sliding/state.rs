@@ -5,6 +5,7 @@ use crate::friction::joint::Configuration;
 use crate::friction::lift_out;
 use crate::response::StopReason;
 use crate::run::problem::Problem;
+use crate::run::segment_time::SegmentTime;
 use crate::run::stretch::{Ended, Over};
 use crate::run::transition;
 use crate::scene::Initial;
@@ -18,6 +19,12 @@ pub struct SlidingState {
     pub segment: usize,
     /// Blocks and interfaces.
     pub configuration: Configuration,
+}
+
+impl SlidingState {
+    pub fn now(&self) -> SegmentTime {
+        SegmentTime { t: self.t, segment: self.segment }
+    }
 }
 
 /// Why a stretch of a run ended.
