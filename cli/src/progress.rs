@@ -66,15 +66,17 @@ impl Progress {
     }
 }
 
-/// The result of work whose length is not known. A terminal shows that it goes on.
-pub fn working<T>(work: impl FnOnce() -> T) -> T {
+/// The result of work whose length is not known. A terminal shows what is done, and that it goes on.
+pub fn working<T>(what: &'static str, work: impl FnOnce() -> T) -> T {
     if !std::io::stderr().is_terminal() {
         return work();
     }
     std::thread::scope(|scope| {
         let (running, finished) = channel::<()>();
         scope.spawn(move || {
-            let bar = ProgressBar::hidden();
+            let style = ProgressStyle::with_template("{spinner} {msg} {elapsed}");
+            let style = style.unwrap_or_else(|_| ProgressStyle::default_spinner());
+            let bar = ProgressBar::hidden().with_style(style).with_message(what);
             let mut pause = PATIENCE;
             while finished.recv_timeout(pause) == Err(RecvTimeoutError::Timeout) {
                 if bar.is_hidden() {

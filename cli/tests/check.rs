@@ -170,6 +170,11 @@ fn a_check_says_what_this_ground_motion_does_first() {
         )
     };
     // The centroid is 0.1 m to the right: the base opens at 0.5 g to one side, and at 0.83 g to the other.
+    folder.write("scene.toml", displaced(0.55));
+    assert_has(
+        &folder.succeeds("thresholds scene.toml"),
+        &["note: blocks are displaced; each row is of the weaker side"],
+    );
     let (text, contact) = check(&displaced(0.55));
     assert!(text.contains("interface 1 slides at 0.4 g, and opens, to its weaker side, at 0.5 g; under this ground motion it slides, at"), "{text}");
     assert_eq!((contact["slides_from"].as_f64(), contact["opens_from"].is_null()), (Some(0.0), true));

@@ -267,6 +267,9 @@ fn the_report_says_which_blocks_slid_to_and_fro() {
     let placed = "[initial]\nx = [-0.04]\ny = [0.5]\nvx = [0.5]\nvy = [0.0]\n";
     let pulse = "kind = \"double-rectangular\"\namplitude_g = 0.9\nduration = 0.5\n[output]\ndt = 0.02\n";
     let own = format!("{block}[excitation.horizontal]\n{pulse}");
+    // Dropped from 10 cm into the pulse.
+    let drop = "[initial]\nx = [0.0]\ny = [0.6]\nvx = [0.1]\nvy = [0.0]\n";
+    let dropped = format!("{block}{drop}[excitation.horizontal]\n{pulse}");
     let sum = format!("{block}[excitation.horizontal]\nkind = \"sum\"\n[[excitation.horizontal.term]]\n{pulse}");
     let later = "[output]\ntimes = [0.12, 0.2, 1.0]\n";
     for (scene, told) in [
@@ -275,6 +278,7 @@ fn the_report_says_which_blocks_slid_to_and_fro() {
         (format!("{block}{placed}{later}"), "Slid: interface 1 by 4.25&nbsp;cm."),
         (own, "cm to and fro."),
         (sum, "cm to and fro."),
+        (dropped, "cm in all. 1 flight at interface 1"),
     ] {
         let folder = Folder::with("scene.toml", &scene);
         folder.succeeds("run scene.toml --out out --report --no-trust");

@@ -1,9 +1,11 @@
 //! Rocking spectra: sweeps with `ask = "peaks"` over the size of the column, and their figures; figures of one axis and of paired axes.
 
+use crate::common::figures::parts;
 use crate::common::{Folder, figures};
 use rocking::ground::Synthetic;
 use rocking::studies::fractile;
 use rocking::{Block, Column, Excitation, Motion, Restitution, Scene, Sweep, simulate};
+use roxmltree::{Document, Node};
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
@@ -238,6 +240,64 @@ fn one_axis_is_drawn_as_strips_or_as_a_curve_for_each_block() {
     none.refused("sweep sweep.toml --plot f.svg", &["no axis with numbers has several values"]);
 }
 
+/// Block 2 falls at 0.4, 0.5 and 0.7; block 1 hardly moves. Curves of blocks stop there, and marks say that the column is lost. A curve of the largest angle
+/// of all blocks runs along the upper edge.
+#[test]
+fn columns_that_are_lost_are_marked_whichever_block_falls() {
+    let axes =
+        "index,excitation.horizontal.amplitude,outcome,impacts,block,overturned_at,peak_1,peak_2,truncated,error\n";
+    let row = |index: usize, amplitude: &str, is_lost: bool| match is_lost {
+        true => format!("{index},{amplitude},overturns,1,2,1.5,0.001,9.5,false,\n"),
+        false => format!("{index},{amplitude},rocks,1,,,0.001,0.5,false,\n"),
+    };
+    let amplitudes = ["0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7"];
+    let is_lost = |amplitude: &str| ["0.4", "0.5", "0.7"].contains(&amplitude);
+    let rows = amplitudes.iter().enumerate().map(|(index, amplitude)| row(index, amplitude, is_lost(amplitude)));
+    let folder = Folder::with("blocks.csv", &format!("{axes}{}", rows.collect::<String>()));
+    let told = folder.succeeds("plot blocks.csv");
+    assert!(told.contains("At the upper edge the column is lost: 3 of 7 runs are."), "{told}");
+    let figure = folder.read("blocks.svg");
+    assert!(words(&folder, "blocks.svg").contains(&"column lost".into()));
+    // The marks are at the upper edge, and no curve of a block is: frame and grid alone end there.
+    let document = Document::parse(&figure).expect("XML");
+    let number = |node: &Node, name: &str| node.attribute(name).and_then(|text| text.parse::<f64>().ok());
+    let dots: Vec<f64> = document.descendants().filter_map(|node| number(&node, "cy")).collect();
+    // One run that stands between two that fall is a dot of each block.
+    assert_eq!(dots.len(), 3 + 2, "{dots:?}");
+    let top = dots.iter().copied().fold(f64::INFINITY, f64::min);
+    assert_eq!(dots.iter().filter(|y| **y == top).count(), 3);
+    let colors = ["#0072b2", "#d55e00"];
+    let heights = |color: &str| -> Vec<f64> {
+        let of_color = document.descendants().filter(|node| node.attribute("stroke") == Some(color));
+        let paths = of_color.filter_map(|node| node.attribute("d"));
+        paths.flat_map(parts).flatten().map(|[_, y]| y).collect()
+    };
+    for color in colors {
+        assert!(!heights(color).is_empty() && heights(color).iter().all(|y| *y > top + 10.0), "{color}");
+    }
+
+    // Two columns: each has a curve.
+    let second = |text: &str, blocks: &str| text.replacen(',', &format!(",{blocks},"), 1);
+    let of = |blocks: &'static str, from: usize| {
+        let rows = amplitudes.iter().enumerate();
+        rows.map(move |(place, amplitude)| second(&row(from + place, amplitude, is_lost(amplitude)), blocks))
+            .collect::<String>()
+    };
+    let table = format!("{}{}{}", second(axes, "column.blocks"), of("2", 0), of("3", 7));
+    folder.write("two.csv", table);
+    folder.succeeds("plot two.csv");
+    let figure = folder.read("two.svg");
+    let document = Document::parse(&figure).expect("XML");
+    assert!(!words(&folder, "two.svg").contains(&"column lost".into()));
+    assert!(!document.descendants().any(|node| node.has_tag_name("circle")));
+    let solid = document.descendants().filter(|node| node.attribute("stroke") == Some(colors[0]));
+    let runs: Vec<Vec<[f64; 2]>> = solid.filter_map(|node| node.attribute("d")).flat_map(parts).collect();
+    let top = runs.iter().flatten().map(|[_, y]| *y).fold(f64::INFINITY, f64::min);
+    let along = runs.iter().flat_map(|run| run.windows(2)).find(|pair| pair[0][1] == top && pair[1][1] == top);
+    let [[from, _], [to, _]] = along.expect("a piece along the upper edge") else { panic!("two ends") };
+    assert!((to - from).abs() > 50.0, "{from} {to}");
+}
+
 #[test]
 fn paired_axes_are_drawn_along_the_first_that_has_numbers() {
     let pulse = "[excitation.horizontal]\nkind = \"sine-pulse\"\namplitude_uplift = 3\nomega_p = 5\n";
@@ -256,6 +316,14 @@ fn paired_axes_are_drawn_along_the_first_that_has_numbers() {
     let axes = "combine = \"paired\"\nask = \"peaks\"\n[axes]\ntitle = [\"a\", \"b\", \"c\"]\n";
     let folder = folder(&scene, axes);
     folder.refused("sweep sweep.toml --plot f.svg", &["no axis with numbers"]);
+    // Two values that come twice each: no axis tells the four rows apart.
+    folder.write("twice.toml", "scene = \"base.toml\"\ncombine = \"paired\"\nask = \"peaks\"\n[axes]\nomega_p = [2, 2, 5, 5]\namplitude_uplift = [1.5, 4, 4, 1.5]\n");
+    folder.succeeds("sweep twice.toml --out twice.csv");
+    let reason = "need one among them with another value in each row";
+    // All four combinations are there: a grid.
+    folder.succeeds("plot twice.csv");
+    folder.write("thrice.toml", "scene = \"base.toml\"\ncombine = \"paired\"\nask = \"peaks\"\n[axes]\nomega_p = [2, 2, 5]\namplitude_uplift = [1.5, 4, 4]\n");
+    folder.refused("sweep thrice.toml --plot f.svg", &[reason]);
 }
 
 /// What stands in the table is what one would write.

@@ -1,6 +1,7 @@
 //! Trust on the command line: a chaotic run says that its verdict is not determined, files of the run are the same without companions, and sweeps and
 //! studies have it in their tables.
 
+use crate::common::figures::words;
 use crate::common::{Folder, assert_has};
 
 /// Three slender drums in twenty seconds of harmonic motion.
@@ -167,6 +168,15 @@ fn slides_that_equal_friction_decides_are_not_known() {
     let trust = folder.summary()["trust"].clone();
     assert_eq!((&trust["determined"], &trust["further"]["others"]), (&true.into(), &0.into()));
     assert!(trust["slide_horizon"].as_f64().is_some_and(|horizon| horizon < 2.0), "{trust}");
+    // The figure says so, too.
+    let told = folder.succeeds("plot out");
+    assert_has(
+        &told,
+        &[
+            "At the end of this run alone (companions, which differ by less than anybody can know, have the same slides up to t = 1.",
+        ],
+    );
+    assert!(words(&folder.read("out/slides.svg")).contains(&"known up to here".into()));
     // Coefficients that differ by a millionth make other drums slide.
     let slides = || folder.summary()["sliding"]["residual_slide"].as_array().expect("a list").clone();
     let own = slides();

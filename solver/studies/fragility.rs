@@ -431,6 +431,25 @@ mod tests {
         assert_eq!(overturning(&alone).resurrections, ["r0"]);
     }
 
+    /// Two of three records overturn from 1.0 on, and one of these is undecided at 2.0: the share falls from two thirds to one half.
+    #[test]
+    fn a_share_that_falls_by_undecided_runs_names_no_record() {
+        let lost_from = [1.0, 1.0, 3.0];
+        let all =
+            || (0..3).flat_map(|record| [0.5, 1.0, 2.0].map(|level| run(record, level, level >= lost_from[record])));
+        let undecided = |run: Observation| match run.level == 2.0 && run.record == "r0" {
+            true => Observation { fate: Some(Fate::Undetermined), ..run },
+            false => run,
+        };
+        let told = |runs: Vec<Observation>| {
+            let found = overturning(&runs);
+            assert_eq!((found.falls.len(), found.resurrections.len()), (1, 0));
+            found.statements().into_iter().filter(|statement| statement.contains("falls from")).collect::<Vec<_>>()
+        };
+        let expected = "the share of the decided runs falls from level 1 to 2, where other runs are undecided: no record is known to come back; see the raw shares";
+        assert_eq!(told(all().map(undecided).collect()), [expected]);
+    }
+
     #[test]
     fn layout_is_told_by_the_levels() {
         let cloud: Vec<Observation> =

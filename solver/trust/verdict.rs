@@ -42,6 +42,11 @@ impl Verdict {
         }
     }
 
+    /// Whether the column is lost: it overturns or collapses.
+    pub fn is_lost(self) -> bool {
+        matches!(self, Verdict::Overturns | Verdict::Collapses)
+    }
+
     /// The verdict as in a sentence: `stands`, `may overturn`, `overturns`, `collapses`, `ends undetermined`.
     pub fn words(self) -> &'static str {
         match self {

@@ -41,7 +41,7 @@ impl Trust {
             }
             if let Some(fold) = &self.fold {
                 text.push_str("; ");
-                text.push_str(&fold.sentence());
+                text.push_str(&fold.sentence(self.verdict));
             }
             return text;
         }

@@ -57,12 +57,16 @@ pub fn execute(arguments: Arguments) -> Result<(), Failure> {
         Command::Modes { blocks, json: true, friction: true, .. } => json(&modes::moving_rows(usize::from(blocks))),
         Command::Modes { svg: Some(file), friction: true, .. } => modes::draw_states(&file),
         Command::Modes { blocks, friction: true, .. } => print(&modes::list_moving(usize::from(blocks))),
-        Command::Modes { blocks, json: true, .. } => json(&working(|| modes::rows(usize::from(blocks)))),
-        Command::Modes { blocks, svg: None, .. } => print(&working(|| modes::list_modes(usize::from(blocks)))),
+        Command::Modes { blocks, json: true, .. } => {
+            json(&working("modes of the column", || modes::rows(usize::from(blocks))))
+        }
+        Command::Modes { blocks, svg: None, .. } => {
+            print(&working("modes of the column", || modes::list_modes(usize::from(blocks))))
+        }
         Command::Modes { blocks, svg: Some(file), .. } => modes::draw_modes(usize::from(blocks), &file),
         Command::Derive { blocks, mode, counts, format } => {
             let request = if counts { Asked::Counts } else { Asked::Derivation(format) };
-            print(&working(|| modes::derive(usize::from(blocks), &mode, request))?)
+            print(&working("derivation", || modes::derive(usize::from(blocks), &mode, request))?)
         }
         Command::Thresholds { scene, json: true } => json(&thresholds::rows(&inputs::scene(&scene)?)),
         Command::Thresholds { scene, .. } => print(&thresholds::thresholds(&inputs::scene(&scene)?)),

@@ -7,8 +7,9 @@ use crate::ending::Ending;
 use crate::error::Failure;
 use crate::number::{counted, fixed};
 use crate::output;
+use crate::plot::modes::called;
 use crate::plot::{NAMES, Paper};
-use crate::progress::Progress;
+use crate::progress::{Progress, working};
 use crate::terminal::{json_text, print, warn};
 use crate::text::{printable, shown};
 use rocking::Fate;
@@ -42,8 +43,9 @@ pub fn run(request: &Run) -> Result<(), Failure> {
     })
     .map_err(failed)?;
     let seconds = start.elapsed().as_secs_f64();
-    let followed = Followed::of(request, &scene, &response, seconds).map_err(failed)?;
     bar.finish();
+    let follow = || Followed::of(request, &scene, &response, seconds);
+    let followed = if request.quiet { follow() } else { working("companions of the run", follow) }.map_err(failed)?;
     let mut finished = Finished::new(&scene, &response);
     finished.scene_text = SceneText { file: path.clone(), text };
     finished.wall_seconds = seconds;
@@ -189,7 +191,8 @@ fn list(place: &str, numbers: &[f64], text: impl Fn(usize, f64) -> String) -> St
 fn account(scene: &Scene, response: &Response, followed: &Followed) -> String {
     let modes = response.modes_by_time();
     let (report, others) = modes.split_at(modes.len().min(MODES_PRINTED));
-    let mut modes: Vec<String> = report.iter().map(|(mode, time)| format!("{mode} {time:.3} s")).collect();
+    let mut modes: Vec<String> =
+        report.iter().map(|(mode, time)| format!("{} {time:.3} s", called(*mode, response))).collect();
     if !others.is_empty() {
         let time: f64 = others.iter().map(|(_, time)| time).sum();
         modes.push(format!("{} {time:.3} s", counted(others.len(), ["other", "others"])));

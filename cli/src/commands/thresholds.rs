@@ -67,6 +67,9 @@ pub fn thresholds(scene: &Scene) -> String {
             uplift_acceleration / stack.gravity
         );
     }
+    if scene.column.slides().iter().any(|slide| *slide != 0.0) {
+        text.push_str("note: blocks are displaced; each row is of the weaker side of its interface\n");
+    }
     text.push_str(note_of_places(scene));
     text
 }

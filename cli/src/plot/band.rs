@@ -1,6 +1,6 @@
 //! Band of angles: the range of the angles of a run and its companions, behind the curves of the run. The band starts where the runs part.
 
-use super::curve::{Frame, Point};
+use super::curve::Point;
 use super::drawn_run::DrawnRun;
 use super::sheet::{Anchor, Panel, Sheet, patch};
 use super::style::{self, Stroke};
@@ -49,31 +49,58 @@ pub fn draw(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel) {
     }
 }
 
-/// Draws a line at the horizon, with its name in a free place beside the line.
+/// Draws a line at the horizon of the angles.
 pub fn mark_horizon(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel) {
     let Some(trust) = open(motion) else { return };
-    let frame = &panel.frame;
     // If the exact inputs determine the angles to the end, the line marks how far the first six digits of the inputs do.
     let (t, words) = match trust.horizon < trust.ends_at {
         true => (trust.horizon, "known up to here, if inputs were exact"),
         false => (trust.input_horizon, "known up to here by six digits"),
     };
-    let x = panel.place_x(t);
+    mark(sheet, panel, t, words);
+}
+
+/// Draws a line at the horizon of the slides, if companions have others at the end of the run.
+pub fn mark_slide_horizon(sheet: &mut Sheet, motion: &DrawnRun, panel: &Panel) {
+    let horizon = motion.results.trust.as_ref().and_then(|trust| trust.slide_horizon);
+    if let Some(t) = horizon.filter(|t| *t < motion.end) {
+        mark(sheet, panel, t, KNOWN);
+    }
+}
+
+/// What the line at a horizon says, in short.
+const KNOWN: &str = "known up to here";
+
+/// Number of heights at which the words beside a horizon are tried.
+const HEIGHTS: u8 = 12;
+
+/// Draws a line at a horizon `t` `[s]`, with words in a free place beside the line. Where there is no free place the words have no white ground: what a
+/// curve shows must not be hidden.
+fn mark(sheet: &mut Sheet, panel: &Panel, t: f64, words: &'static str) {
+    let (x, frame) = (panel.place_x(t), &panel.frame);
     sheet.line([x, frame.top], [x, frame.bottom()], &Stroke::dashed(style::INK, 1.2, &[6.0, 3.0]));
-    // Left of the line, or right: at the top, or at the bottom. Where there is no room for all words, the first ones say the same.
+    // Left of the line, or right: at the top, at the bottom, or between. Where there is no room for all words, the first ones say the same.
     let (top, bottom) = (frame.top + 16.0, frame.bottom() - 8.0);
-    let place = |words: &'static str| {
-        let sides = [(x - 6.0, Anchor::End), (x + 6.0, Anchor::Start)].into_iter();
-        let places = sides.flat_map(|(at, anchor)| [top, bottom].map(|y| ([at, y], anchor)));
-        let patch = |(at, anchor): &(Point, Anchor)| patch(*at, words, style::NOTE, *anchor);
-        let fits = |patch: Frame| patch.left >= frame.left && patch.right() <= frame.right();
-        let mut fitting = places.filter(|place| fits(patch(place))).peekable();
-        let usual = fitting.peek().copied();
-        fitting.find(|place| sheet.is_free(&patch(place))).or(usual).map(|(at, anchor)| (at, anchor, words))
-    };
-    let (at, anchor, words) =
-        [words, "known up to here"].into_iter().find_map(place).unwrap_or(([x, top], Anchor::Middle, words));
-    sheet.words_on_paper(at, words, style::NOTE, anchor);
+    let between = (1..HEIGHTS).map(|step| top + (bottom - top) * f64::from(step) / f64::from(HEIGHTS));
+    let heights: Vec<f64> = [top, bottom].into_iter().chain(between).collect();
+    let mut usual = None;
+    for words in [words, KNOWN] {
+        for (at, anchor) in [(x - 6.0, Anchor::End), (x + 6.0, Anchor::Start)] {
+            for at in heights.iter().map(|y| [at, *y]) {
+                let patch = patch(at, words, style::NOTE, anchor);
+                if patch.left < frame.left || patch.right() > frame.right() {
+                    continue;
+                }
+                if sheet.is_free(&patch) {
+                    sheet.words_on_paper(at, words, style::NOTE, anchor);
+                    return;
+                }
+                usual = usual.or(Some((at, words, anchor)));
+            }
+        }
+    }
+    let (at, words, anchor) = usual.unwrap_or(([x, top], KNOWN, Anchor::Middle));
+    sheet.words(at, words, style::NOTE, anchor);
 }
 
 /// Range of a block's angles in each column of the band, up to the time `end`: `x`, and the lower and upper end of the range `[px]`.

@@ -1,6 +1,7 @@
 //! Slides over time, and in a panel below, the gaps of blocks in flight. Only runs in which something slides or flies have this figure.
 
 use super::axis::{Axis, brief};
+use super::band;
 use super::curve::Point;
 use super::drawn_run::{DrawnRun, over_time};
 use super::sheet::{Anchor, Figure, Key, Panel, Sheet};
@@ -38,13 +39,15 @@ pub fn draw(motion: &DrawnRun) -> Option<Figure> {
     let time = time_axis(motion);
     let upper = if has_gaps { time.unnumbered() } else { time.clone() };
     let mut panel = curves_panel(&mut sheet, motion, (top, SLIDES), upper, ("Slide", &slides));
+    band::mark_slide_horizon(&mut sheet, motion, &panel);
     mark_ending(&mut sheet, motion, &panel, Anchor::End);
     if has_gaps {
         panel = curves_panel(&mut sheet, motion, (panel.frame.bottom() + GAP, GAPS), time, ("Gap", &gaps));
     }
     sheet.height = sheet.label_below(&panel) + 8.0;
     let is_cut = [&slides, &gaps].into_iter().any(|curves| end_of_axis(motion, curves).is_finite());
-    Some(Figure::new("slides", caption(report, has_gaps, is_cut), sheet))
+    let known = motion.results.trust.as_ref().and_then(|trust| trust.slide_horizon);
+    Some(Figure::new("slides", caption(report, has_gaps, is_cut, known), sheet))
 }
 
 /// Parts of the slide of an interface over time, interrupted where its blocks are apart: a slide leads to the place at which a flight ends, but nothing
@@ -98,8 +101,9 @@ fn curves_panel(
     panel
 }
 
-/// The caption of a figure that `has_gaps`, and whose panels leave out what a fall `is_cut` from them.
-fn caption(report: &SlidingReport, has_gaps: bool, is_cut: bool) -> String {
+/// The caption of a figure that `has_gaps`, and whose panels leave out what a fall `is_cut` from them. Companions have the same slides up to the time
+/// `known` `[s]`; `None` if they have them to the end.
+fn caption(report: &SlidingReport, has_gaps: bool, is_cut: bool, known: Option<f64>) -> String {
     let mut caption = String::from(
         "Slides at output times: how far the middle of a block's base lies to the right of the middle of the face below, along that face",
     );
@@ -114,7 +118,10 @@ fn caption(report: &SlidingReport, has_gaps: bool, is_cut: bool) -> String {
             format!("{} cm at interface {}", brief(100.0 * report.residual_slide[interface]), interface + 1)
         })
         .collect();
-    caption.push_str(&format!(" At the end: {}.", ends.join(", ")));
+    let of_run = known.map_or(String::new(), |t| {
+        format!(" of this run alone (companions, which differ by less than anybody can know, have the same slides up to t = {t:.4} s)")
+    });
+    caption.push_str(&format!(" At the end{of_run}: {}.", ends.join(", ")));
     if is_cut {
         caption.push_str(" Curves leave the panel where the column falls.");
     }

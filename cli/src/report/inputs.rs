@@ -72,7 +72,11 @@ fn restitution(law: &Restitution, housner: f64) -> String {
     let plastic = "angular momentum is conserved about the new pivots, nothing rebounds";
     match law {
         Restitution::Plastic => {
-            format!("plastic: {plastic}; as one body the column keeps {} of its rate", percent(housner))
+            let as_one_body = match housner > 0.0 {
+                true => format!("as one body the column keeps {} of its rate", percent(housner)),
+                false => "as one body the column is so squat that it stops at an impact".into(),
+            };
+            format!("plastic: {plastic}; {as_one_body}")
         }
         Restitution::Eta(eta) => format!(
             "η = {}: the ratio of rates after and before of the column as one body ({} if plastic)",

@@ -107,33 +107,40 @@ fn end_of_run(results: &Results) -> (&'static str, String) {
 /// Slides below this are not worth a number `[m]`.
 const SMALLEST_SLIDE: f64 = 1e-6;
 
+/// Share of the way slid that may be lost in turns for the slide to count as one way.
+const ONE_WAY_SHARE: f64 = 0.01;
+
 /// Where the blocks stayed, and what slid and flew. Empty for a scene without friction.
 fn places(results: &Results) -> String {
     let Some(report) = &results.response.sliding else { return String::new() };
     if !report.is_any() {
         return "<p>Friction holds: no block slides or flies.</p>\n".into();
     }
-    let moved: Vec<usize> = (0..results.column.len()).filter(|&interface| report.has_moved(interface)).collect();
+    let is_worth_a_number =
+        |interface: usize| report.way_slid[interface] >= SMALLEST_SLIDE || report.flights[interface] > 0;
+    let moved: Vec<usize> = (0..results.column.len()).filter(|&interface| is_worth_a_number(interface)).collect();
+    if moved.is_empty() {
+        return "<p>Friction holds but for slides below a thousandth of a millimetre.</p>\n".into();
+    }
     // Slides at the start: those of the row at zero or, without one, of the column that nothing has moved; of placed blocks they are not known then.
     let first = results.response.samples.first().filter(|row| row.t == 0.0);
     let start = |interface: usize| match first.and_then(|row| row.slide.get(interface)) {
         Some(slide) => Some(*slide),
         None => results.initial.x.is_empty().then(|| results.column.slides()[interface]),
     };
-    let slid = moved.iter().filter(|&&interface| report.way_slid[interface] > 0.0);
+    let slid = moved.iter().filter(|&&interface| report.way_slid[interface] >= SMALLEST_SLIDE);
     let way: Vec<String> = slid
         .map(|&interface| {
             let way = report.way_slid[interface];
-            let one_way = |start: f64| (report.residual_slide[interface] - start).abs() + SMALLEST_SLIDE;
-            // Flights displace blocks as well.
-            let is_reversed =
-                report.flights[interface] == 0 && start(interface).is_some_and(|start| way > one_way(start));
-            format!(
-                "interface {} by {}{}",
-                interface + 1,
-                centimetres(way),
-                if is_reversed { " to and fro" } else { "" }
-            )
+            let turned = |start: f64| way - (report.residual_slide[interface] - start).abs();
+            let turns = match (start(interface).map(turned), report.flights[interface]) {
+                (Some(turned), _) if turned <= SMALLEST_SLIDE.max(ONE_WAY_SHARE * way) => "",
+                (None, 0) => "",
+                (Some(_), 0) => " to and fro",
+                // Flights displace blocks as well.
+                _ => " in all",
+            };
+            format!("interface {} by {}{turns}", interface + 1, small_length(way))
         })
         .collect();
     let mut parts = Vec::new();
@@ -146,7 +153,7 @@ fn places(results: &Results) -> String {
         let times = counted(flights, ["flight", "flights"]);
         let height = match report.highest_flight {
             height if height < SMALLEST_SLIDE => String::new(),
-            height => format!(", up to {} high", centimetres(height)),
+            height => format!(", up to {} high", small_length(height)),
         };
         parts.push(format!("{times} at {}{height}.", named(&who)));
     }
@@ -165,6 +172,9 @@ fn stayed(results: &Results, report: &SlidingReport, moved: &[usize]) -> String 
         let last = response.samples.last().filter(|row| row.t >= response.t_final);
         let where_to = match last.and_then(|row| row.gap.get(block)) {
             Some(gap) if *gap > 0.0 => format!("in flight above {below}"),
+            _ if block == 0 && report.residual_slide[block].abs() < SMALLEST_SLIDE => {
+                "in its place on the ground".into()
+            }
             _ => format!("{} on {below}{}", sideways(report.residual_slide[block]), at_start(results, block)),
         };
         format!("<li>block {}: {where_to}</li>", escape(&results.block_name(block)))
@@ -199,13 +209,17 @@ fn at_start(results: &Results, block: usize) -> String {
 fn sideways(slide: f64) -> String {
     match slide {
         slide if slide.abs() < SMALLEST_SLIDE => "in the middle".into(),
-        slide => format!("{} to the {}", centimetres(slide), if slide > 0.0 { "right" } else { "left" }),
+        slide => format!("{} to the {}", small_length(slide), if slide > 0.0 { "right" } else { "left" }),
     }
 }
 
-/// A length, without its sign, in cm.
-fn centimetres(length: f64) -> String {
-    format!("{}&nbsp;cm", significant(100.0 * length.abs(), 3))
+/// A length, without its sign, in cm or, below 1 mm, in mm.
+fn small_length(length: f64) -> String {
+    let (number, unit) = match length.abs() {
+        length if length < 1e-3 => (1e3 * length, "mm"),
+        length => (1e2 * length, "cm"),
+    };
+    format!("{}&nbsp;{unit}", significant(number, 3))
 }
 
 /// The key numbers: largest angle, impacts, the mode or rest that lasts longest in all, ground acceleration.

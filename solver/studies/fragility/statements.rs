@@ -99,7 +99,13 @@ impl Fragility {
         let mut reasons = Vec::new();
         if !self.falls.is_empty() {
             let falls = self.falls.iter().map(|[from, to]| format!("{} to {}", brief(*from), brief(*to)));
-            reasons.push(format!("the share of runs falls from level {}", first_few(falls.collect())));
+            let falls = first_few(falls.collect());
+            if self.is_fall_of_undecided_runs() {
+                return Some(format!(
+                    "the share of the decided runs falls from level {falls}, where other runs are undecided: no record is known to come back; see the raw shares"
+                ));
+            }
+            reasons.push(format!("the share of runs falls from level {falls}"));
         }
         if !self.resurrections.is_empty() {
             let (count, names) = (self.resurrections.len(), first_few(self.resurrections.clone()));
@@ -108,6 +114,13 @@ impl Fragility {
         }
         let curve = if self.probability(1.0).is_some() { ", which no lognormal curve shows" } else { "" };
         (!reasons.is_empty()).then(|| format!("not monotonic: {}; see the raw shares{curve}", reasons.join("; ")))
+    }
+
+    /// Whether shares fall, as far as is known, because the runs of other records are undecided.
+    fn is_fall_of_undecided_runs(&self) -> bool {
+        let is_whole = |level: f64| self.counts.iter().any(|count| count.level == level && count.undecided == 0);
+        let is_open = |[from, to]: &[f64; 2]| !is_whole(*from) || !is_whole(*to);
+        self.resurrections.is_empty() && !self.differ_beside_level && self.falls.iter().all(is_open)
     }
 
     /// Warning that it is not said which records come back; `None` where it is, or where no run has the state.

@@ -325,6 +325,9 @@ impl Findings {
     }
 }
 
+/// Share of the largest displacement of the ground that is left at its end, above which a word on it is due.
+const DISPLACED_SHARE: f64 = 0.5;
+
 impl MotionFindings {
     fn of(motion: &Motion, t_end: f64) -> MotionFindings {
         let [pga, pgv, pgd] = motion.peaks(0.0, t_end);
@@ -349,7 +352,9 @@ impl MotionFindings {
             true => format!("with {} m/s, displaced by {} m", fixed(velocity, 4), fixed(displacement, 4)),
             false => "beyond what numbers hold".into(),
         };
-        let _ = writeln!(text, "  ends at {end:.4} s; the ground is left {left}");
+        let is_displaced = displacement.abs() > DISPLACED_SHARE * pgd;
+        let unfelt = if is_displaced { "; a column feels accelerations alone" } else { "" };
+        let _ = writeln!(text, "  ends at {end:.4} s; the ground is left {left}{unfelt}");
         // Zeros at the end of a record are no motion.
         if self.motion.moves_after(t_end) {
             let _ = writeln!(text, "  note: that is after the end of the run, solver.t_end");

@@ -2,7 +2,8 @@
 //! Makris & Konstantinidis (2003), Earthq. Eng. Struct. Dyn. 32.
 //!
 //! In a sweep over records, each combination (records left out) has a panel, with thin curves of the records and with their fractiles. Where the
-//! column is lost, a curve leaves at the top, and comes back where the column stands again.
+//! column is lost, a curve runs along the upper edge, and comes back where the column stands again. Where each block or interface has a curve, the column
+//! that is lost has a mark of its own: which block falls is not that of each curve.
 
 use super::family::{Family, Rows};
 use super::place::{GAP, NUMBERS, Place, TITLE, line};
@@ -28,13 +29,16 @@ const ROOM: f64 = 0.06;
 /// Room above the largest angle if some columns are lost, as a share of it. The upper edge has a name, which needs room free of numbers.
 const ROOM_BELOW_LOST: f64 = 0.1;
 
-/// Name of the upper edge where curves of lost columns leave.
+/// Name of the upper edge, where columns that are lost are.
 const LOST: &str = "lost";
+
+/// Name of the marks of columns that are lost.
+const COLUMN_LOST: &str = "column lost";
 
 /// Upper end of the axis of a quantity that is zero throughout.
 const NOTHING: f64 = 1.0;
 
-/// Smallest upper end of the axis of angles if some columns are lost: a curve that leaves there must not look like an angle of a column that stands.
+/// Smallest upper end of the axis of angles if some columns are lost: a curve at the upper edge must not look like an angle of a column that stands.
 const LEAST_TOP: f64 = 1.1;
 
 /// Gap between columns of panels `[px]`. Only the first column has numbers upwards.
@@ -99,6 +103,8 @@ type Value = (f64, Option<f64>);
 /// A curve: how it looks, its name, its values from the left.
 struct Curve {
     stroke: Stroke,
+    /// Whether lines join its values.
+    is_joined: bool,
     name: String,
     values: Vec<Value>,
 }
@@ -120,7 +126,7 @@ pub fn draw(points: &Points, family: &Family, measure: &Measure, paper: &Paper) 
         1 => vec![single(measure, family, &rows)],
         _ => rows
             .iter()
-            .map(|records| of_records(&records.iter().map(|rows| largest_of(values, rows)).collect::<Vec<_>>()))
+            .map(|records| of_records(&records.iter().map(|rows| largest_of(values, rows)).collect::<Vec<_>>(), family))
             .collect(),
     };
     let is_each_entry = family.records == 1 && rows.len() == 1 && values.entries > 1;
@@ -139,7 +145,7 @@ pub fn draw(points: &Points, family: &Family, measure: &Measure, paper: &Paper) 
             place.level(&mut sheet, reference);
         }
         for curve in curves {
-            place.values(&mut sheet, curve, family.is_joined);
+            place.values(&mut sheet, curve);
         }
         place.axes(&mut sheet, [number + columns >= panels.len(), column == 0]);
         if panels.len() > 1 {
@@ -176,16 +182,27 @@ fn single(measure: &Measure, family: &Family, rows: &[Vec<Rows>]) -> Vec<Curve> 
     let values = measure.values;
     match (rows, values.entries) {
         ([records], 2..) => {
+            let standing = |number: Option<f64>| number.filter(|number| number.is_finite());
             let of_entry = |entry: usize| Curve {
                 stroke: line(entry),
+                is_joined: family.is_joined,
                 name: format!("{} {}", measure.entry, entry + 1),
-                values: records[0].iter().map(|(x, row)| (*x, values.of(*row, entry))).collect(),
+                values: records[0].iter().map(|(x, row)| (*x, standing(values.of(*row, entry)))).collect(),
             };
-            (0..values.entries).map(of_entry).collect()
+            let lost = |number: Option<f64>| number.filter(|number| number.is_infinite());
+            let of_lost = Curve {
+                stroke: Stroke::solid(style::INK, 0.0),
+                is_joined: false,
+                name: COLUMN_LOST.into(),
+                values: records[0].iter().map(|(x, row)| (*x, lost(values.largest(*row)))).collect(),
+            };
+            let has_lost = of_lost.values.iter().any(|(_, number)| number.is_some());
+            (0..values.entries).map(of_entry).chain(has_lost.then_some(of_lost)).collect()
         }
         _ => {
             let curve = |(number, records): (usize, &Vec<Rows>)| Curve {
                 stroke: line(number),
+                is_joined: family.is_joined,
                 name: family.titles[number].clone(),
                 values: largest_of(values, &records[0]),
             };
@@ -195,9 +212,11 @@ fn single(measure: &Measure, family: &Family, rows: &[Vec<Rows>]) -> Vec<Curve> 
 }
 
 /// The curves of a panel of records: one for each record, and one for each fractile of the records at each position.
-fn of_records(records: &[Vec<Value>]) -> Vec<Curve> {
-    let mut curves: Vec<Curve> =
-        records.iter().map(|values| Curve { stroke: RECORD, name: String::new(), values: values.clone() }).collect();
+fn of_records(records: &[Vec<Value>], family: &Family) -> Vec<Curve> {
+    let is_joined = family.is_joined;
+    let of_record =
+        |values: &Vec<Value>| Curve { stroke: RECORD, is_joined, name: String::new(), values: values.clone() };
+    let mut curves: Vec<Curve> = records.iter().map(of_record).collect();
     for (share, stroke) in FRACTILES.into_iter().zip(FRACTILE_LINES) {
         let at = |place: usize| {
             let found: Vec<f64> = records.iter().filter_map(|values| values[place].1).collect();
@@ -205,6 +224,7 @@ fn of_records(records: &[Vec<Value>]) -> Vec<Curve> {
         };
         curves.push(Curve {
             stroke,
+            is_joined,
             name: format!("{:.0} %", 100.0 * share),
             values: (0..records[0].len()).map(at).collect(),
         });
@@ -218,11 +238,11 @@ fn legend(family: &Family, curves: &[Curve]) -> Vec<(Key, String)> {
         entries.push((Key::Line(RECORD), format!("{} records", family.records)));
     }
     let named = curves.iter().filter(|curve| !curve.name.is_empty());
-    let key = |stroke: &Stroke| match family.is_joined {
-        true => Key::Line(stroke.clone()),
-        false => Key::Fill(stroke.color),
+    let key = |curve: &Curve| match curve.is_joined {
+        true => Key::Line(curve.stroke.clone()),
+        false => Key::Fill(curve.stroke.color),
     };
-    entries.extend(named.map(|curve| (key(&curve.stroke), curve.name.clone())));
+    entries.extend(named.map(|curve| (key(curve), curve.name.clone())));
     entries
 }
 
@@ -241,10 +261,7 @@ fn caption(points: &Points, family: &Family, measure: &Measure) -> String {
     }
     text.push('.');
     if lost > 0 {
-        text.push_str(&format!(
-            " A curve leaves at the top where the column is lost, and comes back where it stands: {lost} of {} runs are lost.",
-            points.len()
-        ));
+        text.push_str(&format!(" At the upper edge the column is lost: {lost} of {} runs are.", points.len()));
     }
     if open > 0 {
         let (runs, are) = (counted(open, ["run has", "runs have"]), if open == 1 { "is" } else { "are" });
@@ -263,21 +280,17 @@ impl Place<'_> {
         }
     }
 
-    /// A curve, interrupted where there is no answer. Points are drawn as dots if they are not joined, if an answer stands alone, or if the column is lost in all
-    /// up to the next interruption.
-    fn values(&self, sheet: &mut Sheet, curve: &Curve, is_joined: bool) {
+    /// A curve, interrupted where there is no answer. Values that are not joined, or stand alone, are dots.
+    fn values(&self, sheet: &mut Sheet, curve: &Curve) {
         let at = |(x, number): (f64, f64)| self.at([self.x.share(x), self.y.share(number).min(1.0)]);
         let parts = curve.values.chunk_by(|a, b| a.1.is_some() && b.1.is_some());
         let mut runs: Vec<Vec<Point>> = Vec::new();
         for part in parts {
             let known: Vec<(f64, f64)> = part.iter().filter_map(|(x, number)| Some((*x, (*number)?))).collect();
-            if !is_joined || known.len() == 1 || known.iter().all(|(_, number)| number.is_infinite()) {
-                known.iter().for_each(|value| sheet.dot(at(*value), curve.stroke.color));
-                continue;
+            match curve.is_joined && known.len() > 1 {
+                true => runs.push(known.into_iter().map(at).collect()),
+                false => known.into_iter().for_each(|value| sheet.dot(at(value), curve.stroke.color)),
             }
-            // Between two positions at which the column is lost nothing is drawn.
-            let segments = known.chunk_by(|a, b| a.1.is_finite() || b.1.is_finite());
-            runs.extend(segments.map(|segment| segment.iter().map(|value| at(*value)).collect()));
         }
         let inside = runs.iter().flat_map(|run| curve::clip(run, &self.frame));
         let dashed: Vec<_> =

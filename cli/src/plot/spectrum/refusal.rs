@@ -29,7 +29,8 @@ pub enum NoSpectrum {
     /// The table lacks points of a sweep, or repeats one.
     #[error(
         "there are {rows} points and the values of the axes make {points}; draw a whole sweep whose axes have each value once, of shards \
-         the table that `rocking merge` makes. Of several axes that are distributions there is no figure: the sweep writes the shares into TABLE-probability.csv"
+         the table that `rocking merge` makes. Axes that change together (`combine = \"paired\"`) need one among them with another value in each row. \
+         Of several axes that are distributions there is no figure: the sweep writes the shares into TABLE-probability.csv"
     )]
     NoGrid { rows: usize, points: usize },
 }
