@@ -50,10 +50,22 @@ fn assert_of<const LISTS: usize>(
 /// Share of the largest impulse of an impact below which an impulse is rounding: it asks for no friction.
 const NEGLIGIBLE_IMPULSE: f64 = 1e-9;
 
-/// The impulses of an impact that are not rounding, with their interfaces (from zero).
-pub(crate) fn noticeable_impulses(impulses: &[ContactForce]) -> impl Iterator<Item = (usize, &ContactForce)> {
-    let least = NEGLIGIBLE_IMPULSE * impulses.iter().map(ContactForce::size).fold(0.0, f64::max);
+/// Share of the column's momentum below which an impulse is rounding: impulses are sums of changes of momenta.
+const ROUNDING_OF_MOMENTUM: f64 = 1e-13;
+
+/// The impulses of an impact that are not rounding, with their interfaces (from zero). `momentum` is the size of the blocks' momenta `[N s]`.
+pub(crate) fn noticeable_impulses(
+    impulses: &[ContactForce],
+    momentum: f64,
+) -> impl Iterator<Item = (usize, &ContactForce)> {
+    let largest = impulses.iter().map(ContactForce::size).fold(0.0, f64::max);
+    let least = (NEGLIGIBLE_IMPULSE * largest).max(ROUNDING_OF_MOMENTUM * momentum);
     impulses.iter().enumerate().filter(move |(_, impulse)| impulse.size() > least)
+}
+
+/// The size of the momenta of a rocking column, per rate of its fastest block `[kg m]`.
+pub(crate) fn momentum_per_rate(column: &Column) -> f64 {
+    column.mass_above(0) * column.size()
 }
 
 #[cfg(test)]

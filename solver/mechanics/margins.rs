@@ -18,7 +18,7 @@ use super::pendulum::Waves;
 use crate::column::Column;
 use crate::numerics::ode::taylor::{MAX_ORDER, Taylor, TermSizes};
 use crate::numerics::per_block::PerBlock;
-use crate::numerics::plane::{Vec2, minus};
+use crate::numerics::plane::{Vec2, minus, size};
 use crate::numerics::polynomial::powers::Powers;
 use crate::numerics::polynomial::track::Track;
 use crate::numerics::state_vector::StateVector;
@@ -83,7 +83,6 @@ impl Margins {
     pub fn new(column: &Column, pattern: &Pattern) -> Margins {
         let (moments, levers) = moments_and_levers(column, pattern);
         let closed = (0..column.len()).filter(|i| !pattern.0[*i].is_open());
-        let size = |[u, v]: Vec2| libm::hypot(u, v);
         let lever = |(moment, next)| Lever { moment, next, moment_size: size(moment), next_size: size(next) };
         Margins {
             corners: closed.map(|interface| Corners::new(column, pattern, interface)).collect(),

@@ -23,6 +23,12 @@ pub fn scaled(a: Vec2, factor: f64) -> Vec2 {
     [a[0] * factor, a[1] * factor]
 }
 
+/// Length of a vector.
+#[inline(always)]
+pub fn size([x, y]: Vec2) -> f64 {
+    libm::hypot(x, y)
+}
+
 /// Velocity of a point of a body that turns clockwise at this rate about a point at rest; `r` leads from the point at rest to the other.
 #[inline(always)]
 pub fn swept(rate: f64, r: Vec2) -> Vec2 {

@@ -7,9 +7,10 @@ use super::state::State;
 use super::stretch::Stretch;
 use super::transition::Transition;
 use crate::column::{Block, Column};
-use crate::contact::noticeable_impulses;
+use crate::contact::{momentum_per_rate, noticeable_impulses};
 use crate::friction::contact_problem::Coefficients;
 use crate::mechanics::dynamics::ContactForce;
+use crate::numerics::per_block::largest;
 
 /// Share of a width by which an upper block must reach beyond the lower face to count as wider.
 const WIDTH_ROUNDING: f64 = 1e-12;
@@ -65,6 +66,8 @@ pub(crate) struct Cones<'a> {
     least_normal: Vec<f64>,
     /// Impulses of impacts in which no block turns faster are not checked `[rad/s]`.
     slowest_impact: f64,
+    /// [`momentum_per_rate`] of the column.
+    momentum_per_rate: f64,
 }
 
 /// The largest rate of all blocks at which impacts are part of the end of a chatter: no block that slow hops higher than `stick_angle` `[rad/s]`
@@ -88,6 +91,7 @@ impl<'a> Cones<'a> {
             may_be_below: (0..column.len()).map(may_be_below).collect(),
             least_normal: (0..column.len()).map(|i| NO_FORCE * column.mass_above(i) * column.gravity()).collect(),
             slowest_impact: slowest_impact(column, stick_angle),
+            momentum_per_rate: momentum_per_rate(column),
         }
     }
 
@@ -134,16 +138,18 @@ impl Limits for Cones<'_> {
         if decision.separation {
             return false;
         }
-        if before.omega.iter().all(|rate| rate.abs() <= self.slowest_impact) {
+        let fastest = largest(&before.omega);
+        if fastest <= self.slowest_impact {
             return true;
         }
+        let momentum = self.momentum_per_rate * fastest;
         let gaps = record.largest_gaps();
         let is_held = |(interface, impulse): (usize, &ContactForce)| {
             let (demand, coefficient) = (impulse.friction_demand(), self.friction.kinetic[interface]);
             impulse.normal > 0.0 && self.is_within(interface, demand, coefficient, gaps)
         };
         // The plastic impact must hold by itself: where it slides, it rebounds from another rate (docs/book/model.md, sections 17 and 18).
-        noticeable_impulses(&decision.impulses).all(is_held)
-            && noticeable_impulses(&decision.plastic_impulses).all(is_held)
+        noticeable_impulses(&decision.impulses, momentum).all(is_held)
+            && noticeable_impulses(&decision.plastic_impulses, momentum).all(is_held)
     }
 }

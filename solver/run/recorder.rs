@@ -11,8 +11,8 @@ use super::state::State;
 use super::stretch::{Over, Stretch};
 use super::transition::Transition;
 use crate::column::Column;
-use crate::contact::noticeable_impulses;
-use crate::numerics::per_block::{PerBlock, Size, for_size};
+use crate::contact::{momentum_per_rate, noticeable_impulses};
+use crate::numerics::per_block::{PerBlock, Size, for_size, largest};
 use crate::response::{Event, EventKind, Impulse, ModeName, Response, Sample, Separation, StopReason};
 use rocking_codegen::pattern::Pattern;
 use std::collections::BTreeMap;
@@ -189,7 +189,8 @@ impl Recorder {
             self.pattern.clone_from(&after.pattern);
         }
         if problem.records_forces() {
-            for (interface, impulse) in noticeable_impulses(&transition.decision.impulses) {
+            let momentum = momentum_per_rate(&problem.scene.column) * largest(&before.omega);
+            for (interface, impulse) in noticeable_impulses(&transition.decision.impulses, momentum) {
                 self.log.extremes.add_impulse(interface, impulse);
                 if let Some(needs) = &mut self.needs {
                     needs.add_impulse(interface, impulse, before);

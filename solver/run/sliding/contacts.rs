@@ -5,7 +5,7 @@ use crate::friction::chain::{Chain, Pose, Rates};
 use crate::friction::contact_problem::Touch;
 use crate::friction::gaps::{self, Corner};
 use crate::friction::joint::{Configuration, Face, Joint, Sign, Slip, face};
-use crate::numerics::plane::Vec2;
+use crate::numerics::plane::{Vec2, minus, size};
 
 /// Gap that is rounding, as a share of the column's size; gap of angles that is rounding `[rad]`.
 const GAP_SHARE: f64 = 1e-12;
@@ -109,7 +109,7 @@ fn has_length(resolution: Resolution, chain: &Chain, interface: usize) -> bool {
         let corner = close_corners(resolution, chain, interface, side).next();
         corner.map(|corner| gaps::place_and_axes(chain, corner).0)
     });
-    let apart = |[one, other]: [Vec2; 2]| libm::hypot(one[0] - other[0], one[1] - other[1]);
+    let apart = |[one, other]: [Vec2; 2]| size(minus(one, other));
     right.zip(left).is_none_or(|(right, left)| apart([right, left]) > FACE_SHARE * resolution.size)
 }
 

@@ -12,7 +12,7 @@ use crate::friction::contact_problem::Coefficients;
 use crate::friction::joint::{Configuration, Face, Joint, Slip};
 use crate::mechanics::dynamics::{ContactForce, Energy};
 use crate::numerics::per_block::PerBlock;
-use crate::numerics::plane::Vec2;
+use crate::numerics::plane::{Vec2, size};
 use crate::response::{
     BlockAtEvent, BlockState, ContactTimes, Event, Impulse, ModeName, Response, Sample, SlidingReport, StopReason, Work,
 };
@@ -146,7 +146,6 @@ impl<'p> SlidingRecorder<'p> {
         if !self.problem.is_recorded() {
             return;
         }
-        self.impulses(impulses.as_deref().unwrap_or_default());
         let (old, new): (Pattern, Pattern) = (before.pattern(), after.pattern());
         let (interface, interfaces) = Event::caused_by(interfaces);
         let mut event = Event {
@@ -170,6 +169,7 @@ impl<'p> SlidingRecorder<'p> {
             impulses: impulses.as_ref().map_or_else(PerBlock::new, |impulses| PerBlock::from_slice(impulses)),
         };
         let [before, after] = self.write_configurations(&mut event, [before, after]).map(|energy| energy.kinetic);
+        self.impulses(&event);
         let share_lost = if before > 0.0 { (before - after) / before } else { 0.0 };
         event.energy_lost = impulses.is_some().then_some(share_lost);
         self.log.push_event(event);
@@ -191,9 +191,12 @@ impl<'p> SlidingRecorder<'p> {
         [0, 1].map(|k| energy_of(&chains[k], &motions[k]))
     }
 
-    fn impulses(&mut self, impulses: &[Impulse]) {
-        let impulses: PerBlock<ContactForce> = impulses.iter().map(ContactForce::from).collect();
-        for (interface, impulse) in noticeable_impulses(&impulses).filter(|(_, impulse)| impulse.normal > 0.0) {
+    /// Records what friction the impulses of an event ask for.
+    fn impulses(&mut self, event: &Event) {
+        let impulses: PerBlock<ContactForce> = event.impulses.iter().map(ContactForce::from).collect();
+        let speeds = event.blocks.iter().map(|block| size(block.velocity_before));
+        let momentum = self.column().mass_above(0) * speeds.fold(0.0, f64::max);
+        for (interface, impulse) in noticeable_impulses(&impulses, momentum).filter(|(_, one)| one.normal > 0.0) {
             self.log.extremes.add_impulse(interface, impulse);
         }
     }
@@ -247,7 +250,7 @@ impl<'p> SlidingRecorder<'p> {
             }
             // The last impacts of a chatter need not be within the cones.
             if event.omega_before.iter().any(|rate| rate.abs() > slowest_impact) {
-                self.impulses(&event.impulses);
+                self.impulses(&event);
             }
             self.log.push_event(event);
         }
