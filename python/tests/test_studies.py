@@ -311,6 +311,9 @@ def test_a_study_is_pickled_and_runs_in_ranges() -> None:
     table = plan.run().table
     again = pickle.loads(pickle.dumps(plan))
     pd.testing.assert_frame_equal(pd.concat([again.table(0, 4), again.table(4, threads=1)]), table)
+    parts = [plan.shard(number, 2) for number in (1, 2)]
+    assert parts == [range(0, 4), range(4, 9)]
+    pd.testing.assert_frame_equal(pd.concat([plan.table(part.start, part.stop) for part in parts]), table)
     assert len(plan) == 9 and plan.levels.tolist() == [0.1, 0.4, 0.9] and "3 record(s)" in repr(plan)
 
 

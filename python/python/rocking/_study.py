@@ -17,18 +17,18 @@ import pandas as pd
 from . import _rocking
 from ._arguments import flag, number, numbers, optional, path_text, text, whole
 from ._errors import StudyError, warn
-from ._frame import arrow, frame
+from ._frame import frame
+from ._plan import Plan
 from ._record import Array, Record, Records, StudyRecord
 from ._run import Run, simulate
 from ._scene import RUN, Column, Scene, SceneKeys
 
 if TYPE_CHECKING:
-    import pyarrow
     from matplotlib.axes import Axes
     from typing_extensions import Unpack
 
 
-class Ida:
+class Ida(Plan):
     """Records times levels of a measure, before it is run; the run of any index is found without the others.
 
     Parameters
@@ -119,27 +119,8 @@ class Ida:
     def __len__(self) -> int:
         return len(self._ida)
 
-    def table(self, start: int = 0, stop: int | None = None, *, threads: int = 0) -> pd.DataFrame:
-        """Runs the runs from ``start`` to before ``stop``; a row each, with the columns of ``rocking ida``.
-
-        ``threads`` is the number of threads, 0 for as many as the machine has; rows do not depend on it.
-
-        Raises
-        ------
-        IndexError
-            For a ``stop`` after the last run.
-        ValueError
-            For a negative index, or more than 1024 threads.
-        """
-        return frame(self._rows(start, stop, threads), start)
-
-    def to_arrow(self, start: int = 0, stop: int | None = None, *, threads: int = 0) -> "pyarrow.Table":
-        """As :meth:`table`, as a table of Arrow, without pandas in between; blanks are null, and names are dictionaries. Needs ``pyarrow``."""
-        return arrow(self._rows(start, stop, threads))
-
-    def _rows(self, start: int, stop: int | None, threads: int) -> list[tuple[Any, ...]]:
-        end = len(self) if stop is None else whole("stop", stop)
-        return self._ida.table(whole("start", start), end, whole("threads", threads))
+    def _columns(self, start: int, stop: int, threads: int) -> list[tuple[Any, ...]]:
+        return self._ida.table(start, stop, threads)
 
     def run(self, *, threads: int = 0) -> "Study":
         """All runs."""

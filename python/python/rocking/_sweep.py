@@ -12,8 +12,8 @@ import pandas as pd
 from . import _rocking
 from ._arguments import path_text, whole
 from ._errors import warn
-from ._frame import arrow, frame
 from ._keys import copied
+from ._plan import Plan
 from ._scene import FILE_KEYS, POINT, Scene, absolute, is_label
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 POINTS_READ = 1000
 
 
-class Sweep:
+class Sweep(Plan):
     """A scene and the axes over its keys; the point of any index is found without the others.
 
     Parameters
@@ -124,35 +124,8 @@ class Sweep:
         """
         return Scene._of({}, POINT, self._sweep.scene(whole("index", index)))
 
-    def table(self, start: int = 0, stop: int | None = None, *, threads: int = 0) -> pd.DataFrame:
-        """Runs the points from ``start`` to before ``stop``; a row each, with the columns of ``rocking sweep``.
-
-        ``threads`` is the number of threads, 0 for as many as the machine has; rows do not depend on it. A point whose scene cannot be read or run is a row
-        with ``outcome`` "error". Blank are ``NaN`` and ``NA``.
-
-        Raises
-        ------
-        IndexError
-            For a ``stop`` after the last point.
-        ValueError
-            For a negative index, or more than 1024 threads.
-        """
-        return frame(self._rows(start, stop, threads), start)
-
-    def to_arrow(self, start: int = 0, stop: int | None = None, *, threads: int = 0) -> "pyarrow.Table":
-        """As :meth:`table`, as a table of Arrow, without pandas in between; blanks are null, and names are dictionaries. Needs ``pyarrow``."""
-        return arrow(self._rows(start, stop, threads))
-
-    def _rows(self, start: int, stop: int | None, threads: int) -> list[tuple[Any, ...]]:
-        end = len(self) if stop is None else whole("stop", stop)
-        return self._sweep.table(whole("start", start), end, whole("threads", threads))
-
-    def shard(self, number: int, count: int) -> range:
-        """Indices of the ``number``-th (from 1) of ``count`` parts, as ``rocking sweep --shard``."""
-        number, count = whole("number", number), whole("count", count)
-        if not 1 <= number <= count:
-            raise ValueError(f"there is no part {number} of {count}")
-        return range(len(self) * (number - 1) // count, len(self) * number // count)
+    def _columns(self, start: int, stop: int, threads: int) -> list[tuple[Any, ...]]:
+        return self._sweep.table(start, stop, threads)
 
     def __repr__(self) -> str:
         axes = ", ".join(f"{key} ({count})" for key, count in self.axes.items())

@@ -17,12 +17,12 @@ from __future__ import annotations
 import os
 import pickle
 import time
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
 from ._arguments import number, path_text, whole
-from ._study import Ida
+from ._plan import Plan
 from ._sweep import Sweep
 
 if TYPE_CHECKING:
@@ -44,8 +44,6 @@ MOST_VALUES = 20_000
 #: Seconds of runs that are timed to choose a partition.
 TIMED_SECONDS = 0.25
 
-Plan = Union[Sweep, Ida]
-
 
 def _part(bounds: tuple[int, int], plan: Plan, threads: int) -> pd.DataFrame:
     """The rows of a partition."""
@@ -63,7 +61,7 @@ def partition_size(plan: Plan, *, seconds: float = SECONDS_PER_PARTITION, thread
     ValueError
         For ``seconds`` that are not above zero, or a negative number of ``threads``.
     """
-    if not isinstance(plan, (Sweep, Ida)):
+    if not isinstance(plan, Plan):
         raise TypeError(f"plan is of {type(plan).__name__}; give a Sweep or an Ida")
     seconds = number("seconds", seconds)
     if not seconds > 0.0:
@@ -96,7 +94,7 @@ def frame(plan: Plan, *, rows: range | None = None, partition_size: int | None =
     plan : Sweep or Ida
         Files that its scene names must be readable by the workers; records read with ``Record.read`` travel with the study.
     rows : range
-        Indices of the runs, all unless given; ``Sweep.shard`` has those of a part.
+        Indices of the runs, all unless given; ``plan.shard`` has those of a part.
     partition_size : int
         Rows of a partition; chosen by :func:`partition_size` unless given.
     threads : int
@@ -111,7 +109,7 @@ def frame(plan: Plan, *, rows: range | None = None, partition_size: int | None =
     from dask.base import tokenize
     from dask.delayed import delayed
 
-    if not isinstance(plan, (Sweep, Ida)):
+    if not isinstance(plan, Plan):
         raise TypeError(f"plan is of {type(plan).__name__}; give a Sweep or an Ida")
     asked = range(len(plan)) if rows is None else rows
     if not isinstance(asked, range):
