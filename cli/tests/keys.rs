@@ -1,6 +1,6 @@
 //! The reference of keys has what the reader takes, and nothing else.
 
-use crate::common::{Folder, assert_has};
+use crate::common::{Folder, assert_has, project_text};
 use rocking::scene_file::keys_asked_by;
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -103,6 +103,78 @@ fn values_of(definition: &str) -> BTreeSet<String> {
     let schema = schema("scene");
     let values = schema["$defs"][definition]["enum"].as_array().expect("a list of values");
     values.iter().map(|value| value.as_str().expect("a text").to_owned()).collect()
+}
+
+/// Chapters of the book, joined.
+fn chapters(names: &[&str]) -> String {
+    names.iter().map(|name| project_text(&format!("docs/book/{name}.md"))).collect()
+}
+
+/// Whether a chapter names this in a table or in the text, or gives it a value in an example.
+fn is_named(chapters: &str, name: &str) -> bool {
+    [format!("`{name}`"), format!(" {name} = ")].iter().any(|text| chapters.contains(text))
+}
+
+#[test]
+fn the_book_names_every_key_every_method_and_every_kind_of_motion() {
+    for (kind, names) in [
+        ("scene", &["scene-file", "ground-motion"][..]),
+        ("sweep", &["sweeps"]),
+        ("study", &["fragility", "scene-file", "ground-motion"]),
+    ] {
+        let chapters = chapters(names);
+        let keys = keys_of(&schema(kind));
+        let is_table = |key: &String| keys.iter().any(|other| other.starts_with(&format!("{key}.")));
+        for key in keys.iter().filter(|key| !is_table(key)) {
+            let name = key.rsplit('.').next().unwrap_or_default();
+            assert!(is_named(&chapters, name), "{names:?} do not name the key `{key}` of a {kind}");
+        }
+    }
+    for kind in values_of("Kind") {
+        let is_there = is_named(&chapters(&["ground-motion", "scene-file"]), &kind);
+        assert!(is_there, "ground-motion.md and scene-file.md have no kind `{kind}`");
+    }
+    for method in rocking::Method::ALL {
+        for chapter in ["methods", "scene-file"] {
+            assert!(is_named(&chapters(&[chapter]), method.name()), "{chapter}.md has no method `{}`", method.name());
+        }
+    }
+}
+
+/// Tables of a summary whose fields the chapters do not list: inputs as understood, counts of work, times by names of modes.
+const UNLISTED: [&str; 6] = ["scene", "options", "column", "excitation", "work", "time_in_mode"];
+
+/// The names of fields in a summary, those of tables within it as well.
+fn fields(value: &Value, names: &mut BTreeSet<String>) {
+    match value {
+        Value::Object(table) => {
+            for (name, own) in table {
+                names.insert(name.clone());
+                if !UNLISTED.contains(&name.as_str()) {
+                    fields(own, names);
+                }
+            }
+        }
+        Value::Array(list) => list.iter().for_each(|own| fields(own, names)),
+        _ => {}
+    }
+}
+
+#[test]
+fn the_book_names_every_field_of_a_summary() {
+    let folder = Folder::new();
+    let column = "[column]\nblocks = 2\nhalf_width = 0.4\nhalf_height = 1.2\n[excitation.horizontal]\nkind = \"sine-pulse\"\n\
+                  amplitude_uplift = 2\nomega_p = 4\n[solver]\nt_end = 6\n";
+    let mut names = BTreeSet::new();
+    for head in ["", "friction = 0.3\n", "[restitution]\neta = 0.9\n"] {
+        folder.write("scene.toml", format!("{head}{column}"));
+        folder.succeeds("run scene.toml");
+        fields(&folder.summary(), &mut names);
+    }
+    let chapters = chapters(&["results", "trust", "scene-file"]);
+    let missing: Vec<&String> = names.iter().filter(|name| !is_named(&chapters, name)).collect();
+    assert!(missing.is_empty(), "results.md and trust.md do not name these fields of summary.json: {missing:?}");
+    assert!(names.len() > 60, "{names:?}");
 }
 
 #[test]

@@ -333,13 +333,15 @@ impl Motion {
                 envelope(velocity, omega, start, gamma, &[("phase", phase, ANY), ("gamma", gamma, NARROWEST)])
             }
             Motion::Rectangular { amplitude, start, duration }
-            | Motion::DoubleRectangular { amplitude, start, duration } => {
-                with(&[("amplitude", amplitude, ANY), ("start", start, ANY), ("duration", duration, 0.0)], &[])
-            }
+            | Motion::DoubleRectangular { amplitude, start, duration } => SmallVec::from_slice(&[
+                ("amplitude", amplitude, ANY),
+                ("start", start, ANY),
+                ("duration", duration, 0.0),
+            ]),
             Motion::Sum { .. } => SmallVec::new(),
             Motion::Record(ref record) => {
                 let dt = ("dt", record.dt(), SHORTEST_INTERVAL);
-                with(&[("file", record.peak(), ANY), ("start", record.start(), ANY), dt], &[])
+                SmallVec::from_slice(&[("file", record.peak(), ANY), ("start", record.start(), ANY), dt])
             }
         }
     }

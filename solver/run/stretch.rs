@@ -64,6 +64,9 @@ pub(crate) struct Stretch<'m> {
 /// The inside of a stretch.
 pub(crate) trait Inside {
     /// Angles and rates per block at a time of the stretch `[s]`.
+    ///
+    /// # Panics
+    /// In the middle of steps over several samples, if the run records no rows: these steps are then not kept.
     fn state_at(&mut self, t: f64) -> (PerBlock<f64>, PerBlock<f64>);
 
     /// Raises `peaks`, the largest magnitude of each block's angle so far `[rad]`, by the angles in the stretch.
