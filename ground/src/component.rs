@@ -148,6 +148,14 @@ fn component_of_stem(stem: &str) -> (&str, &str) {
         let start = stem.len() - code.len();
         return (common(start), &stem[start..]);
     }
+    // ITACA: `.._NCR__WEC`, direction and a letter for the processing.
+    if let Some((record, ending)) = stem.rsplit_once("__")
+        && let [direction @ .., processing] = ending.to_ascii_uppercase().as_bytes()
+        && [&b"WE"[..], b"NS", b"UP"].contains(&direction)
+        && processing.is_ascii_alphabetic()
+    {
+        return (record, &ending[..2]);
+    }
     // PEER gives endings to all its files. They need no separator there: `RSN77_SFERN_PULDWN`.
     let of_peer = upper.strip_prefix("RSN").is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
     let named = VERTICAL.into_iter().chain(HORIZONTAL).find_map(|ending| {
@@ -195,6 +203,8 @@ mod tests {
             ("XXXH020103040506.UD2", "XXXH020103040506 2", "UD2", true),
             ("XX.MIB..HNZ.D.64.ASC", "XX.MIB..D.64", "HNZ", true),
             ("XX.MIB..HNE.D.64.ASC", "XX.MIB..D.64", "HNE", false),
+            ("20010304_050607ITDPC_MIB__UPC.DAT", "20010304_050607ITDPC_MIB", "UP", true),
+            ("20010304_050607ITDPC_MIB__WEX.DAT", "20010304_050607ITDPC_MIB", "WE", false),
             ("motion.csv", "motion", "", false),
             ("RIVER.csv", "RIVER", "", false),
             ("Group.csv", "Group", "", false),

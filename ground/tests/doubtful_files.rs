@@ -496,6 +496,64 @@ fn headers_may_state_the_interval() {
     }
 }
 
+/// A remark that speaks of a conversion, a factor, or the size of something else states no unit of the samples; the unit is then given.
+#[test]
+fn remarks_on_conversions_state_no_unit() {
+    for remark in [
+        "# converted from cm/s2 to g",
+        "# Acceleration in cm/s2 converted to g",
+        "# to convert to m/s2 multiply by 9.81",
+        "# multiply by 9.81 to get m/s2",
+        "# acceleration m/s2 -> g",
+        "# gravity (m/s2): 9.81",
+        "# resolution [mg]: 0.1",
+        "# noise floor in mg",
+        "# PGA (cm/s2): 343.35",
+        "# unit of file: see header (cm/s2 or g)",
+        "# acceleration in m/s2 (multiply by 0.01)",
+        "# scale factor 0.01 units cm/s2",
+        "# in m/s2 [x100]",
+    ] {
+        let text = table(&format!("{remark}\n# DT= 0.01"), value);
+        assert!(refused(&text, &options()).contains("unit"), "{remark}");
+        assert!(agrees(&read(&text, &in_g()), G, 0.01), "{remark}");
+    }
+    // A factor on a line of its own is not applied, which a warning says.
+    let factor = read(&table("# scale factor: 0.001\n# units: g\n# DT= 0.01", value), &options());
+    assert!(agrees(&factor, G, 0.01));
+    assert!(
+        factor.warnings.iter().any(|warning| warning.starts_with("line 1 states a factor")),
+        "{:?}",
+        factor.warnings
+    );
+    let plain = read(&table("# corrected, factor of safety none\n# units: g\n# DT= 0.01", value), &options());
+    assert!(plain.warnings.is_empty(), "{:?}", plain.warnings);
+}
+
+/// Two intervals in one line are as doubtful as in two; a rate is no interval.
+#[test]
+fn a_line_with_two_intervals_is_refused() {
+    let text = table("# original dt = 0.005, resampled to dt = 0.01", value);
+    assert!(refused(&text, &in_g()).contains("a sampling interval of 0.01 s is stated, and one of 0.005 s in line 1"));
+    let given = TextOptions { dt: Some(0.01), ..in_g() };
+    assert!(agrees(&read(&text, &given), G, 0.01));
+    assert!(refused(&table("# dt = 100 Hz", value), &in_g()).contains("sampling interval"));
+}
+
+/// Lines with numbers above the names of components are a header; above one column an acceleration with its unit is one name.
+#[test]
+fn components_and_whole_lines_are_names() {
+    let text = table("Depth (km) : 19.44\nN-S  E-W  U-D", |k, a| format!("{a} {} {k}", 2.0 * a));
+    let column = |name: &str| TextOptions { column: Some(name.into()), dt: Some(0.01), ..in_g() };
+    let (first, third) = (read(&text, &column("N-S")), read(&text, &column("U-D")));
+    assert_eq!((first.component.as_str(), third.component.as_str()), ("N-S", "U-D"));
+    assert!(first.accel.len() == third.accel.len() && first.accel != third.accel);
+    for name in ["Acceleration in g", "ACCELERATION TIME HISTORY IN UNITS OF G", "# Acceleration in g"] {
+        let given = TextOptions { dt: Some(0.01), ..options() };
+        assert!(agrees(&read(&table(name, value), &given), G, 0.01), "{name}");
+    }
+}
+
 /// A refused header names the line in which the numbers begin, unless a line above them may be a row.
 #[test]
 fn the_first_row_of_numbers_is_named() {
@@ -506,7 +564,7 @@ fn the_first_row_of_numbers_is_named() {
     };
     let long = "065JZC120103\n0120103153957 2012-01-03 BTM\nATUSHI EARTHQUAKE\n\n# remark";
     assert_eq!(named(&table(long, value)), Some(5));
-    assert_eq!(named(&format!("STATION 0911\nN-S E-W U-D\n{}", wrapped(3))), Some(2));
+    assert_eq!(named(&format!("STATION 0911\none two three\n{}", wrapped(3))), Some(2));
     assert_eq!(named(&format!("065JZC 3\n{}1 2 3\n{}", wrapped(4), wrapped(4))), None);
     assert_eq!(named(&table("MAGNITUDE 6.5", |_, a| format!("{a};{a}").replace('.', ","))), None);
     for first in ["nan", "inf", "****"] {

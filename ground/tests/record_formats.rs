@@ -558,6 +558,34 @@ fn a_sampling_interval_that_is_not_where_it_belongs_is_found_by_the_duration() {
     assert!(shifted.warnings[0].contains("value 60"), "{:?}", shifted.warnings);
 }
 
+/// The first headers of ITACA have a component in place of the stream, and the first sample on the day of the event.
+#[test]
+fn the_first_headers_of_itaca_name_component_and_first_sample() {
+    let whole = text("dyna/itaca-43.DAT");
+    let date = "DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS: 20010304_050610.120";
+    let first = whole
+        .replace(date, "TIME_FIRST_SAMPLE_S: 050610.120")
+        .replace("STREAM: HNE", "COMPONENT: UP")
+        .replace("PGA_CM/S^2: -239.335550", "DATA_TYPE: PROCESSED ACCELERATION");
+    let [whole, first] = [whole, first].map(|text| RecordFile::read(text.as_bytes(), &options()).expect("it is read"));
+    assert_eq!((whole.component.as_str(), first.component.as_str()), ("HNE", "UP"));
+    assert!(first.first_sample.is_some() && first.first_sample == whole.first_sample);
+    assert_eq!((first.accel, first.dt), (whole.accel, whole.dt));
+}
+
+/// Without the interval at its place, that of the recorder is taken, with a warning: in ms, or in s.
+#[test]
+fn the_interval_of_the_recorder_is_in_milliseconds_or_in_seconds() {
+    let whole = text("cosmos/cm.V2")
+        .replace("  -999.000000    10.000000     0.420000", "  -999.000000  -999.000000     0.420000");
+    for interval in ["    10.000000", "     0.010000"] {
+        let text = whole.replace("     5.000000", interval);
+        let file = RecordFile::read(text.as_bytes(), &options()).expect("it is read");
+        assert_eq!((file.dt, file.accel.len()), (0.01, 42), "{interval}");
+        assert!(file.warnings[0].contains("is value 33 (from 0) of the real header"), "{:?}", file.warnings);
+    }
+}
+
 #[test]
 fn the_peak_of_a_header_is_checked() {
     let text = text("dyna/XX.MIB..HNE.D.64.ASC").replace("PGA_CM/S^2: -239.335550", "PGA_CM/S^2: 23.9");

@@ -32,8 +32,11 @@ const UNITS: [usize; 2] = [2, 1];
 const AZIMUTH: usize = 53;
 
 /// Places, from 0, of the sampling interval among the reals `[ms]`: 61 by the format's table; 60 in files whose writers took that number for one counted
-/// from 1. Place 33 holds the interval of the recorder, which processing may have changed.
+/// from 1. Place 33 holds the interval of the recorder, which processing may have changed; some files have it in seconds.
 const INTERVALS: [usize; 3] = [61, 60, 33];
+
+/// Intervals below this are no milliseconds, but seconds: recorders take 20 to 1000 samples a second `[ms]`.
+const SHORTEST_INTERVAL: f64 = 0.5;
 
 /// Place of the peak among the reals. The peak is in the unit of the samples.
 const PEAK: usize = 63;
@@ -267,7 +270,7 @@ impl<'t> Channel<'t> {
             .into_iter()
             .filter_map(|place| Some((place, *reals.get(place)?)))
             .filter(|(_, ms)| *ms > 0.0)
-            .map(|(place, ms)| (place, ms / 1000.0))
+            .map(|(place, ms)| (place, if place == INTERVALS[2] && ms < SHORTEST_INTERVAL { ms } else { ms / 1000.0 }))
             .collect();
         let goes = |dt: f64| {
             duration.is_none_or(|duration| {

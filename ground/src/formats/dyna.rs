@@ -10,7 +10,8 @@
 //! ```
 //!
 //! Versions have 43, 55 or 64 lines of `KEY: value`; keys are read in any order, up to the first row of numbers. Only the first
-//! colon separates key and value.
+//! colon separates key and value. The first version has `COMPONENT: WE`, `NS` or `UP` in place of `STREAM`, and `TIME_FIRST_SAMPLE_S: 050610.120`
+//! on the day of the event.
 
 use super::header::{Entry, leading_number, other_duration, seconds_of, tidy};
 use super::numbers::{Block, Word, comma_refused, has_decimal_comma, is_text, words};
@@ -124,8 +125,13 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let code = if network.is_empty() || code.is_empty() { tidy(code) } else { tidy(&format!("{network}.{code}")) };
     let station = if name.is_empty() || code.is_empty() { format!("{code}{name}") } else { format!("{code} ({name})") };
     let title = ["EVENT_NAME", "EVENT_ID", "EVENT_DATE_YYYYMMDD"].map(|key| header.text(key)).join(" ");
-    let first_sample = header.find("DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS").and_then(|(_, date)| seconds_of(date));
-    Ok(RecordFile { title: tidy(&title), station, component: header.text("STREAM"), declared, first_sample, ..file })
+    let own = |key: &str| header.find(key).map(|(_, value)| value.to_string());
+    let on_day_of_event = || Some(format!("{}_{}", own("EVENT_DATE_YYYYMMDD")?, own("TIME_FIRST_SAMPLE_S")?));
+    let first_sample = own("DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS").or_else(on_day_of_event);
+    let first_sample = first_sample.and_then(|date| seconds_of(&date));
+    let component = [header.text("STREAM"), header.text("COMPONENT")].into_iter().find(|name| !name.is_empty());
+    let component = component.unwrap_or_default();
+    Ok(RecordFile { title: tidy(&title), station, component, declared, first_sample, ..file })
 }
 
 /// Refuses a file without a unit whose header states the peak of a velocity or a displacement alone.

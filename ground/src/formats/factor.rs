@@ -5,8 +5,11 @@
 pub fn has_factor(before: &str, after: &str) -> bool {
     let is_end = |c: char| ",;:=".contains(c);
     let before = before.rsplit(is_end).next().unwrap_or("").replace('_', " ");
-    let before: Vec<&str> = before.split_whitespace().map(|word| word.trim_matches(['[', '(', ']', ')'])).collect();
-    let after: Vec<&str> = after.split(is_end).next().unwrap_or("").split_whitespace().collect();
+    fn bare(word: &str) -> &str {
+        word.trim_matches(['[', '(', ']', ')'])
+    }
+    let before: Vec<&str> = before.split_whitespace().map(bare).collect();
+    let after: Vec<&str> = after.split(is_end).next().unwrap_or("").split_whitespace().map(bare).collect();
     let ends_in_factor = match before.as_slice() {
         [.., share, "of" | "Of" | "OF"] | [.., share] if is_share(share) => true,
         [.., sign, size] if is_sign(sign) => is_size(size, sign),

@@ -25,7 +25,7 @@ const SPECTRAL: [&str; 12] = [
 /// Words that only spectra have: frequencies and ordinates.
 const ORDINATES: [&str; 10] = ["freq", "sa", "sv", "sd", "psa", "psv", "psd", "sae", "sve", "sde"];
 /// Unit of frequencies.
-const HERTZ: &str = "hz";
+pub const HERTZ: &str = "hz";
 /// Words that make a time a number of rows, or a point in time of the clock: `Time step`, `Time index`.
 const COUNTS: [&str; 8] = ["index", "step", "stamp", "sample", "no", "nr", "number", "count"];
 /// Words for time.

@@ -2,7 +2,7 @@
 
 use super::factor::has_factor;
 use super::header::{Entry, leading_number, place_after};
-use super::heading::second;
+use super::heading::{HERTZ, second};
 use super::numbers::number;
 use crate::error::RecordError;
 use crate::options::TextOptions;
@@ -28,9 +28,19 @@ pub fn is_pair(line: &str) -> bool {
         && !value.contains(|c: char| is_sign(c) || ",;\t".contains(c))
 }
 
-/// The sampling interval that follows `DT` `[s]`: `DT= .01 SEC`, `dt = 10 ms`. Neither a fraction (`1/100`) nor an unknown unit of time gives one.
+/// The first of the [`intervals`] that a line states `[s]`.
 pub fn interval(line: &str) -> Option<f64> {
-    let rest = place_after(line, "DT")?;
+    intervals(line).into_iter().next()
+}
+
+/// The sampling intervals that follow `DT` `[s]`: `DT= .01 SEC`, `dt = 10 ms`. Neither a fraction (`1/100`) nor an unknown unit of time gives one.
+pub fn intervals(line: &str) -> Vec<f64> {
+    let behind = |line| place_after(line, "DT");
+    std::iter::successors(behind(line), |rest| behind(rest)).filter_map(interval_at).collect()
+}
+
+/// The interval that a text begins with `[s]`.
+fn interval_at(rest: &str) -> Option<f64> {
     let end = rest.find(|c: char| c.is_whitespace() || ",;/".contains(c)).unwrap_or(rest.len());
     let value = leading_number(rest)?;
     if rest[end..].starts_with('/') {
@@ -40,13 +50,41 @@ pub fn interval(line: &str) -> Option<f64> {
     let touching = if number(&rest[..end]).is_some() { "" } else { &rest[..end] };
     let unit = touching.trim_matches(|c: char| !c.is_alphabetic());
     let next = || rest[end..].split(|c: char| !c.is_alphanumeric()).find(|word| !word.is_empty());
+    if unit.is_empty() && next().is_some_and(|word| word.eq_ignore_ascii_case(HERTZ)) {
+        return None;
+    }
     let second = if unit.is_empty() { next().and_then(second).unwrap_or(1.0) } else { second(unit)? };
     Some(value * second).filter(|interval| *interval > 0.0)
+}
+
+/// Beginnings of words of lines whose units are not, or may not be, those of the samples: conversions and factors, and sizes of something else.
+const OF_ANOTHER: [&str; 6] = ["convert", "conversion", "multipl", "factor", "resolution", "noise"];
+
+/// Signs between the unit before and the one after a conversion.
+const ARROWS: [&str; 4] = ["->", "=>", "\u{2192}", "\u{21d2}"];
+
+/// Whether a line speaks of units that need not be those of the samples.
+fn is_of_another(line: &str) -> bool {
+    let lower = line.to_lowercase();
+    let mut words = lower.split(|c: char| !c.is_alphanumeric());
+    words.any(|word| OF_ANOTHER.iter().any(|begin| word.starts_with(begin)))
+        || ARROWS.iter().any(|arrow| line.contains(arrow))
+}
+
+/// Whether a line states a factor with its number, which no reader of tables applies: `scale factor: 0.001`, `multiply by 9.81`.
+pub fn states_factor(line: &str) -> bool {
+    let lower = line.to_lowercase();
+    let words = || lower.split(|c: char| !(c.is_alphanumeric() || c == '.'));
+    words().any(|word| word.starts_with("multipl") || word == "factor" || word.ends_with("_factor"))
+        && words().any(|word| number(word).is_some())
 }
 
 /// The units of acceleration that a line states: in brackets, after `in`, `units` or `units of`, or by a name that is nothing but a unit (`cm/s2`). A unit
 /// beside a number or a factor belongs to that number: `peak 350 cm/s2`, `10^-2 m/s2`, `% of g`, `g / 10`, `gravity (9.81 m/s2)`.
 fn units_of(line: &str) -> Vec<AccelerationUnit> {
+    if is_of_another(line) {
+        return Vec::new();
+    }
     let is_end = |c: char| c.is_whitespace() || ",;:=\"'".contains(c);
     // `cm / s / s` is one unit.
     let line = line.replace(" / s", "/s").replace(" / S", "/S");
@@ -74,8 +112,10 @@ fn units_of(line: &str) -> Vec<AccelerationUnit> {
         let follows_number = place > 0 && is_number(place - 1) && (!in_brackets || is_of_gravity);
         let (begin, end) = places[place];
         let is_multiple = has_factor(&line[..begin], &line[end..]);
+        let is_choice = last == "or" || words.get(place + 1).is_some_and(|next| bare(next) == "or");
         let name = word.trim_matches(['[', '(', ']', ')', '.']);
-        AccelerationUnit::parse(name).filter(|_| named && !is_number(place + 1) && !follows_number && !is_multiple)
+        AccelerationUnit::parse(name)
+            .filter(|_| named && !is_number(place + 1) && !follows_number && !is_multiple && !is_choice)
     };
     (0..words.len()).filter_map(stated).collect()
 }
@@ -129,9 +169,12 @@ mod tests {
             ("WIDTH= 3", None),
             ("DT= -0.01", None),
             ("DT= 0,01", None),
+            ("DT= 200 HZ", None),
+            ("original dt = 0.005, resampled to dt = 0.01", Some(0.005)),
         ] {
             assert_eq!(interval(text), dt, "{text}");
         }
+        assert_eq!(intervals("original dt = 0.005, resampled to dt = 10 ms"), [0.005, 0.01]);
     }
 
     #[test]
@@ -192,6 +235,16 @@ mod tests {
             "peak 350 cm/s2",
             "PGA (g): 0.3",
             "velocity in m/s",
+            "converted from cm/s2 to g",
+            "Acceleration in cm/s2 converted to g",
+            "to convert to m/s2 multiply by 9.81",
+            "acceleration m/s2 -> g",
+            "resolution [mg]: 0.1",
+            "noise floor in mg",
+            "acceleration in m/s2 (multiply by 0.01)",
+            "scale factor 0.01 units cm/s2",
+            "in m/s2 [x100]",
+            "cm/s2 or g",
             "",
         ] {
             assert_eq!(of(text), None, "{text}");

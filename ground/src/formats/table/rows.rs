@@ -7,6 +7,7 @@ use super::decimal_comma::{
     are_single_commas, has_decimal_commas, has_decimal_commas_in_quotes, is_column_with_commas, refuse_single_commas,
     refuse_thousands, without_quotes,
 };
+use crate::component::is_component;
 use crate::error::RecordError;
 use crate::formats::header::Entry;
 use crate::formats::heading::{Heading, Quantity, headings};
@@ -54,14 +55,14 @@ impl Rows {
         // The nearest line of text above the numbers has the headings; `DT= 0.01` may stand between. Of a header with lines such as `Units: cm/s2`, only a line with a
         // name for each column has them.
         let columns = body.get(first).map_or(0, |(_, row)| words(row).count());
-        let names_columns = |text: &str| headings(text, None).len() == columns;
+        let names_columns = |text: &str| headings_of(text, None, columns).len() == columns;
         let is_pair = |text: &str| statement::is_pair(text) && !names_columns(text);
         let is_statement = |text: &str| statement::interval(text).is_some() || is_pair(text);
         let last_text = body[..first].iter().rposition(|(_, text)| !is_statement(text));
         let has_pairs = |place: usize| body[place + 1..first].iter().any(|(_, text)| is_pair(text));
         let last_text = last_text.filter(|place| !has_pairs(*place) || names_columns(body[*place].1));
         let above = last_text.and_then(|place| Some(body[place.checked_sub(1)?].1));
-        let headings = last_text.map(|place| (body[place].0, headings(body[place].1, above)));
+        let headings = last_text.map(|place| (body[place].0, headings_of(body[place].1, above, columns)));
         let has_all = |(_, names): &(usize, Vec<Heading>)| names.iter().any(|heading| is_all(&heading.name));
         let fills_rows = options.column.as_deref().is_some_and(is_all) && !headings.as_ref().is_some_and(has_all);
         let warnings = refuse_thousands(&body[first..], options)?.into_iter().collect();
@@ -81,8 +82,12 @@ impl Rows {
             .unwrap_or_default();
         let text = || header.clone().map(|index| (index + 1, lines[index]));
         rows.warnings = warnings;
+        let factor = text().find(|(_, text)| statement::states_factor(text));
+        rows.warnings
+            .extend(factor.map(|(line, _)| format!("line {line} states a factor; the samples are taken as they are")));
         rows.stated_units = statement::units(text().filter(|(line, _)| *line != rows.headings.0));
-        rows.stated_intervals = text().filter_map(|(line, text)| Some((line, statement::interval(text)?))).collect();
+        rows.stated_intervals =
+            text().flat_map(|(line, text)| statement::intervals(text).into_iter().map(move |dt| (line, dt))).collect();
         Ok(rows)
     }
 
@@ -115,6 +120,13 @@ impl Rows {
         let last = self.lines.len() - 1;
         (self.at(last, column) * scale - self.at(0, column) * scale) / last as f64
     }
+}
+
+/// The headings of a line above so many columns. Above one column an acceleration with its unit is one name: `Acceleration in g`.
+fn headings_of(text: &str, above: Option<&str>, columns: usize) -> Vec<Heading> {
+    let whole = Heading::parse(text);
+    let is_whole = columns == 1 && whole.quantity() == Some(Quantity::Acceleration) && whole.acceleration().is_some();
+    if is_whole { vec![whole] } else { headings(text, above) }
 }
 
 /// Whether a column's name means all columns.
@@ -284,13 +296,21 @@ fn remark_with_headings(
     let is_named = names.first().is_some_and(Heading::is_surely_time)
         || names.iter().any(has_unit)
         || names.iter().all(|heading| heading.quantity().is_some());
-    (names.len() == columns && is_named).then_some((index + 1, names))
+    // `PGA (cm/s2): 343.35` states a value.
+    let is_value = |heading: &Heading| {
+        heading
+            .rest
+            .strip_prefix([':', '='])
+            .is_some_and(|value| words(value).next().is_some_and(|word| number(word.text).is_some()))
+    };
+    (names.len() == columns && is_named && !names.iter().any(is_value)).then_some((index + 1, names))
 }
 
-/// Whether a line names all columns of the `row` of numbers below it, each with the name or the unit of a quantity.
+/// Whether a line names all columns of the `row` of numbers below it, each with the name or the unit of a quantity, or the name of a component.
 pub fn heads(line: &str, row: &str) -> bool {
     let names = headings(line.trim_start().trim_start_matches(REMARK), None);
-    names.len() == words(row).count() && names.iter().all(|heading| heading.quantity().is_some())
+    let is_name = |heading: &Heading| heading.quantity().is_some() || is_component(&heading.name);
+    names.len() == words(row).count() && names.iter().all(is_name)
 }
 
 /// Fewest numbers below a count: a shorter table may begin with any number.
