@@ -316,14 +316,12 @@ fn paired_axes_are_drawn_along_the_first_that_has_numbers() {
     let axes = "combine = \"paired\"\nask = \"peaks\"\n[axes]\ntitle = [\"a\", \"b\", \"c\"]\n";
     let folder = folder(&scene, axes);
     folder.refused("sweep sweep.toml --plot f.svg", &["no axis with numbers"]);
-    // Two values that come twice each: no axis tells the four rows apart.
-    folder.write("twice.toml", "scene = \"base.toml\"\ncombine = \"paired\"\nask = \"peaks\"\n[axes]\nomega_p = [2, 2, 5, 5]\namplitude_uplift = [1.5, 4, 4, 1.5]\n");
-    folder.succeeds("sweep twice.toml --out twice.csv");
-    let reason = "need one among them with another value in each row";
-    // All four combinations are there: a grid.
-    folder.succeeds("plot twice.csv");
-    folder.write("thrice.toml", "scene = \"base.toml\"\ncombine = \"paired\"\nask = \"peaks\"\n[axes]\nomega_p = [2, 2, 5]\namplitude_uplift = [1.5, 4, 4]\n");
-    folder.refused("sweep thrice.toml --plot f.svg", &[reason]);
+    // Where values come again, rows that make a grid are drawn as one, and others are refused.
+    let paired = |axes: &str| format!("scene = \"base.toml\"\ncombine = \"paired\"\nask = \"peaks\"\n[axes]\n{axes}");
+    folder.write("grid.toml", paired("omega_p = [2, 2, 5, 5]\namplitude_uplift = [1.5, 4, 4, 1.5]\n"));
+    folder.succeeds("sweep grid.toml --out grid.csv --plot grid.svg");
+    folder.write("none.toml", paired("omega_p = [2, 2, 5]\namplitude_uplift = [1.5, 4, 4]\n"));
+    folder.refused("sweep none.toml --plot f.svg", &["need one among them with another value in each row"]);
 }
 
 /// What stands in the table is what one would write.

@@ -83,7 +83,7 @@ const WORDS_FOR_VERTICAL: [&str; 7] = ["UP", "DWN", "DOWN", "VRT", "UD", "V", "Z
 /// Whole names of a vertical component that have other meanings within longer names.
 const WHOLE_FOR_VERTICAL: [&str; 2] = ["AZ", "DU"];
 /// Endings of file names that name a horizontal component.
-const HORIZONTAL: [&str; 10] = ["NS", "EW", "N", "E", "H1", "H2", "L", "T", "X", "Y"];
+const HORIZONTAL: [&str; 11] = ["NS", "EW", "WE", "N", "E", "H1", "H2", "L", "T", "X", "Y"];
 
 /// Sort key of a name by the first number in it: RSN77 comes before RSN125.
 pub fn by_number(name: &str) -> (String, u64, String) {
@@ -103,6 +103,14 @@ pub fn record_and_component(file: &str) -> (Cow<'_, str>, &str) {
     if ["EW", "NS", "UD"].contains(&upper.trim_end_matches(['1', '2'])) && upper.len() <= 3 {
         let depth = &extension[2..];
         return (if depth.is_empty() { stem.into() } else { format!("{stem} {depth}").into() }, extension);
+    }
+    // ITACA: `.._NCR__WEC`, direction and a letter for the processing; each processing is a record of its own.
+    if let Some((record, ending)) = stem.rsplit_once("__")
+        && let Some((direction, processing)) = ending.split_at_checked(2)
+        && ["WE", "NS", "UP"].contains(&direction.to_ascii_uppercase().as_str())
+        && matches!(processing.as_bytes(), [letter] if letter.is_ascii_alphabetic())
+    {
+        return (format!("{record} {processing}").into(), direction);
     }
     let (common, component) = component_of_stem(stem);
     // Network, station and channel code parted by points.
@@ -147,14 +155,6 @@ fn component_of_stem(stem: &str) -> (&str, &str) {
     if let Some(code) = last {
         let start = stem.len() - code.len();
         return (common(start), &stem[start..]);
-    }
-    // ITACA: `.._NCR__WEC`, direction and a letter for the processing.
-    if let Some((record, ending)) = stem.rsplit_once("__")
-        && let [direction @ .., processing] = ending.to_ascii_uppercase().as_bytes()
-        && [&b"WE"[..], b"NS", b"UP"].contains(&direction)
-        && processing.is_ascii_alphabetic()
-    {
-        return (record, &ending[..2]);
     }
     // PEER gives endings to all its files. They need no separator there: `RSN77_SFERN_PULDWN`.
     let of_peer = upper.strip_prefix("RSN").is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
@@ -203,8 +203,8 @@ mod tests {
             ("XXXH020103040506.UD2", "XXXH020103040506 2", "UD2", true),
             ("XX.MIB..HNZ.D.64.ASC", "XX.MIB..D.64", "HNZ", true),
             ("XX.MIB..HNE.D.64.ASC", "XX.MIB..D.64", "HNE", false),
-            ("20010304_050607ITDPC_MIB__UPC.DAT", "20010304_050607ITDPC_MIB", "UP", true),
-            ("20010304_050607ITDPC_MIB__WEX.DAT", "20010304_050607ITDPC_MIB", "WE", false),
+            ("20010304_050607ITDPC_MIB__UPC.DAT", "20010304_050607ITDPC_MIB C", "UP", true),
+            ("20010304_050607ITDPC_MIB__WEX.DAT", "20010304_050607ITDPC_MIB X", "WE", false),
             ("motion.csv", "motion", "", false),
             ("RIVER.csv", "RIVER", "", false),
             ("Group.csv", "Group", "", false),

@@ -124,7 +124,7 @@ pub enum RecordError {
     )]
     Drift { line: usize, time: f64, off: f64, interval: f64 },
     /// The file lacks a quantity that the user must give.
-    #[error("the file states no {quantity} that is recognised; give it with `{key}`{}", example(key))]
+    #[error("the file has no recognised {quantity}; give it with `{key}`{}", example(key))]
     Missing { quantity: &'static str, key: &'static str },
     /// An option contradicts the file.
     #[error("`{key}` is given as {given} and line {line} of the file says {file}; leave `{key}` out or correct it")]

@@ -521,13 +521,36 @@ fn remarks_on_conversions_state_no_unit() {
     // A factor on a line of its own is not applied, which a warning says.
     let factor = read(&table("# scale factor: 0.001\n# units: g\n# DT= 0.01", value), &options());
     assert!(agrees(&factor, G, 0.01));
-    assert!(
-        factor.warnings.iter().any(|warning| warning.starts_with("line 1 states a factor")),
-        "{:?}",
-        factor.warnings
-    );
-    let plain = read(&table("# corrected, factor of safety none\n# units: g\n# DT= 0.01", value), &options());
-    assert!(plain.warnings.is_empty(), "{:?}", plain.warnings);
+    assert_eq!(factor.warnings, ["line 1 states the factor 0.001; the samples are taken as they are"]);
+    // Words of that kind in another part of the line say nothing of the unit, nor does a factor of something else.
+    for remark in [
+        "# units: g, factor of safety none",
+        "# factory units: g",
+        "# Acceleration (g), noise removed",
+        "# Acceleration in g; quality factor Q=100",
+        "# acceleration in multiples of g",
+        "# Amplification factor, record 12, in g",
+    ] {
+        let plain = read(&table(&format!("{remark}\n# DT= 0.01"), value), &options());
+        assert!(agrees(&plain, G, 0.01) && plain.warnings.is_empty(), "{remark}: {:?}", plain.warnings);
+    }
+    // A doubtful unit is not taken, and still contradicts another one that is given.
+    let told = read(&table("# converted from cm/s2\n# DT= 0.01", value), &in_g()).warnings;
+    assert!(told[0].contains("line 1 states the unit cm/s²"), "{told:?}");
+    let lenient = TextOptions { lenient: true, ..options() };
+    assert!(agrees(&read(&table("# converted to m/s2\n# DT= 0.01", value), &lenient), 1.0, 0.01));
+    assert!(agrees(
+        &read(&table("PEER\nX\nCORRECTED RECORD IN CM/S2, NOISE FILTERED\nNPTS= 20, DT= 0.01 SEC", value), &options()),
+        0.01,
+        0.01
+    ));
+}
+
+/// A name of a component below the line with the count makes no table of an AT2 file: a cut one is refused.
+#[test]
+fn an_at2_file_with_a_component_is_no_table() {
+    let text = table("PEER\nX\nACCELERATION IN M/S2\nNPTS= 4000, DT= 0.01 SEC\nNS", value);
+    assert!(refused(&text, &options()).contains("declares 4000 samples and the file has 20"));
 }
 
 /// Two intervals in one line are as doubtful as in two; a rate is no interval.
@@ -548,10 +571,29 @@ fn components_and_whole_lines_are_names() {
     let (first, third) = (read(&text, &column("N-S")), read(&text, &column("U-D")));
     assert_eq!((first.component.as_str(), third.component.as_str()), ("N-S", "U-D"));
     assert!(first.accel.len() == third.accel.len() && first.accel != third.accel);
-    for name in ["Acceleration in g", "ACCELERATION TIME HISTORY IN UNITS OF G", "# Acceleration in g"] {
-        let given = TextOptions { dt: Some(0.01), ..options() };
+    let given = TextOptions { dt: Some(0.01), ..options() };
+    for name in [
+        "Acceleration in g",
+        "ACCELERATION TIME HISTORY IN UNITS OF G",
+        "# Acceleration in g",
+        "El Centro 1940\nAcceleration in g",
+    ] {
         assert!(agrees(&read(&table(name, value), &given), G, 0.01), "{name}");
     }
+    // No sure unit, or two.
+    for name in [
+        "Acceleration in m/s2 converted from g",
+        "Acceleration in cm/s2 or g",
+        "Acceleration noise floor in mg",
+        "Acceleration time history in g, El Centro (m/s2)",
+    ] {
+        assert!(RecordFile::read(table(name, value).as_bytes(), &given).is_err(), "{name}");
+    }
+    // A statement is no name, and gives way to what is given; places are no components.
+    let stated = read(&table("Acceleration: cm/s2", value), &TextOptions { dt: Some(0.01), ..in_g() });
+    assert!(agrees(&stated, G, 0.01) && stated.warnings[0].contains("states the unit cm/s²"), "{:?}", stated.warnings);
+    let places = table("Event 5\nX 1.23 0.45", |k, a| format!("{a} {} {k}", 2.0 * a));
+    assert!(refused(&places, &column("1")).contains("is no number"));
 }
 
 /// A refused header names the line in which the numbers begin, unless a line above them may be a row.

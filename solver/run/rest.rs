@@ -126,7 +126,8 @@ impl Inside for Rest {
 
     /// If nothing starts the column any more, the end is the time at which the rest began.
     fn end<'s>(&mut self, state: &'s mut State) -> &'s mut State {
-        SegmentTime { t: state.t, segment: state.segment } = if self.is_final { self.since } else { self.until };
+        let end = if self.is_final { self.since } else { self.until };
+        (state.t, state.segment) = (end.t, end.segment);
         state
     }
 }

@@ -149,7 +149,7 @@ mod tests {
         let ways = [StopReason::Collapsed, StopReason::Overturned];
         let search = |verdict| {
             let changed = |changed: &Scene| {
-                let ratio = motion_of(changed) / motion_of(&scene);
+                let ratio = amplitude_of(changed) / amplitude_of(&scene);
                 Ok(Response { status: ways[usize::from(ratio > 1.0)], ..response.clone() })
             };
             Fold::search(&scene, &response, verdict, changed).expect("runs").expect("a fold")
@@ -160,7 +160,7 @@ mod tests {
         assert_eq!(search(Verdict::Stands).turns.len(), 2);
     }
 
-    fn motion_of(scene: &Scene) -> f64 {
+    fn amplitude_of(scene: &Scene) -> f64 {
         match scene.excitation.horizontal {
             Some(rocking_ground::Motion::SinePulse { amplitude, .. }) => amplitude,
             _ => panic!("a sine pulse"),

@@ -6,7 +6,7 @@
 //!       ──> band.rs         the smallest and the largest angle of all runs, over time
 //!       ──> further.rs      more changes of 1e-6, where the angles part before a verdict is certain that the nine share
 //!       ──> verdict.rs      the outcome of each run: stands, overturns, collapses, or nothing that is known
-//!       ──> fold.rs         the smallest change of the shaking, among a few, that changes the verdict
+//!       ──> fold.rs         the smallest change of the shaking, among a few, that turns the verdict
 //! ```
 //!
 //! `follow.rs` goes this way from a scene to its [`Trust`]; `words.rs` says it in a sentence.

@@ -83,24 +83,24 @@ fn mark(sheet: &mut Sheet, panel: &Panel, t: f64, words: &'static str) {
     let (top, bottom) = (frame.top + 16.0, frame.bottom() - 8.0);
     let between = (1..HEIGHTS).map(|step| top + (bottom - top) * f64::from(step) / f64::from(HEIGHTS));
     let heights: Vec<f64> = [top, bottom].into_iter().chain(between).collect();
-    let mut usual = None;
-    for words in [words, KNOWN] {
-        for (at, anchor) in [(x - 6.0, Anchor::End), (x + 6.0, Anchor::Start)] {
-            for at in heights.iter().map(|y| [at, *y]) {
-                let patch = patch(at, words, style::NOTE, anchor);
-                if patch.left < frame.left || patch.right() > frame.right() {
-                    continue;
-                }
-                if sheet.is_free(&patch) {
-                    sheet.words_on_paper(at, words, style::NOTE, anchor);
-                    return;
-                }
-                usual = usual.or(Some((at, words, anchor)));
-            }
+    let sides = [(x - 6.0, Anchor::End), (x + 6.0, Anchor::Start)];
+    let beside = |words: &'static str| {
+        let heights = &heights;
+        sides.into_iter().flat_map(move |(at, anchor)| heights.iter().map(move |y| ([at, *y], words, anchor)))
+    };
+    let patch_of = |(at, words, anchor): &(Point, &str, Anchor)| patch(*at, words, style::NOTE, *anchor);
+    let fits = |place: &(Point, &str, Anchor)| {
+        let patch = patch_of(place);
+        patch.left >= frame.left && patch.right() <= frame.right()
+    };
+    let places: Vec<_> = [words, KNOWN].into_iter().flat_map(beside).filter(fits).collect();
+    match places.iter().find(|place| sheet.is_free(&patch_of(place))) {
+        Some((at, words, anchor)) => sheet.words_on_paper(*at, words, style::NOTE, *anchor),
+        None => {
+            let usual = places.first().copied().unwrap_or(([x, top], KNOWN, Anchor::Middle));
+            sheet.words(usual.0, usual.1, style::NOTE, usual.2);
         }
     }
-    let (at, words, anchor) = usual.unwrap_or(([x, top], KNOWN, Anchor::Middle));
-    sheet.words(at, words, style::NOTE, anchor);
 }
 
 /// Range of a block's angles in each column of the band, up to the time `end`: `x`, and the lower and upper end of the range `[px]`.

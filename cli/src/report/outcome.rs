@@ -140,7 +140,7 @@ fn places(results: &Results) -> String {
                 // Flights displace blocks as well.
                 _ => " in all",
             };
-            format!("interface {} by {}{turns}", interface + 1, small_length(way))
+            format!("interface {} by {}{turns}", interface + 1, length_in_words(way))
         })
         .collect();
     let mut parts = Vec::new();
@@ -153,7 +153,7 @@ fn places(results: &Results) -> String {
         let times = counted(flights, ["flight", "flights"]);
         let height = match report.highest_flight {
             height if height < SMALLEST_SLIDE => String::new(),
-            height => format!(", up to {} high", small_length(height)),
+            height => format!(", up to {} high", length_in_words(height)),
         };
         parts.push(format!("{times} at {}{height}.", named(&who)));
     }
@@ -173,7 +173,7 @@ fn stayed(results: &Results, report: &SlidingReport, moved: &[usize]) -> String 
         let where_to = match last.and_then(|row| row.gap.get(block)) {
             Some(gap) if *gap > 0.0 => format!("in flight above {below}"),
             _ if block == 0 && report.residual_slide[block].abs() < SMALLEST_SLIDE => {
-                "in its place on the ground".into()
+                format!("in its place on the ground{}", at_start(results, block))
             }
             _ => format!("{} on {below}{}", sideways(report.residual_slide[block]), at_start(results, block)),
         };
@@ -209,12 +209,12 @@ fn at_start(results: &Results, block: usize) -> String {
 fn sideways(slide: f64) -> String {
     match slide {
         slide if slide.abs() < SMALLEST_SLIDE => "in the middle".into(),
-        slide => format!("{} to the {}", small_length(slide), if slide > 0.0 { "right" } else { "left" }),
+        slide => format!("{} to the {}", length_in_words(slide), if slide > 0.0 { "right" } else { "left" }),
     }
 }
 
 /// A length, without its sign, in cm or, below 1 mm, in mm.
-fn small_length(length: f64) -> String {
+fn length_in_words(length: f64) -> String {
     let (number, unit) = match length.abs() {
         length if length < 1e-3 => (1e3 * length, "mm"),
         length => (1e2 * length, "cm"),

@@ -17,7 +17,7 @@ use super::header::{Entry, brief, number_after, tidy};
 use super::heading::Quantity;
 use super::numbers::{Block, FixedWidth, is_remark, number, words};
 use super::record_file::{Format, RecordFile};
-use super::statement::{self, HEADER_LINES, names_count};
+use super::statement::{self, HEADER_LINES, Stated, names_count};
 use super::table;
 use crate::error::RecordError;
 use crate::options::TextOptions;
@@ -66,8 +66,8 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
     let unit = match own {
         Some((line, unit)) => {
             // Other units in the line of the unit are of other quantities, such as a peak.
-            let others = stated.into_iter().filter(|(other, _)| *other != line);
-            let all: Vec<_> = iter::once((line, unit)).chain(others).collect();
+            let others = stated.into_iter().filter(|other| other.line != line);
+            let all: Vec<_> = iter::once(Stated { line, unit, is_doubtful: false }).chain(others).collect();
             statement::one_unit(&all, options, &mut warnings)?;
             unit
         }
@@ -84,7 +84,7 @@ pub fn read(lines: &[&str], options: &TextOptions) -> Result<RecordFile, RecordE
 
 /// The unit that a header states in other places than its own, else that of `options`, else g.
 fn unit_in_text(
-    stated: &[(usize, AccelerationUnit)],
+    stated: &[Stated],
     lines: &[&str],
     options: &TextOptions,
     warnings: &mut Vec<String>,

@@ -33,10 +33,18 @@ pub fn interval(line: &str) -> Option<f64> {
     intervals(line).into_iter().next()
 }
 
-/// The sampling intervals that follow `DT` `[s]`: `DT= .01 SEC`, `dt = 10 ms`. Neither a fraction (`1/100`) nor an unknown unit of time gives one.
+/// The sampling intervals that follow `DT` `[s]`: `DT= .01 SEC`, `dt = 10 ms`. Neither a fraction (`1/100`) nor an unknown unit of time gives one. From the
+/// second on, an interval has a sign of equality: `original dt = 0.005, resampled to dt = 0.01`.
 pub fn intervals(line: &str) -> Vec<f64> {
-    let behind = |line| place_after(line, "DT");
-    std::iter::successors(behind(line), |rest| behind(rest)).filter_map(interval_at).collect()
+    let behind = |text| place_after(text, "DT");
+    let has_sign = |text: &str, rest: &str| text[..text.len() - rest.len()].trim_end().ends_with(['=', ':']);
+    let mut found: Vec<f64> = Vec::new();
+    let mut text = line;
+    while let Some(rest) = behind(text) {
+        found.extend(interval_at(rest).filter(|_| found.is_empty() || has_sign(text, rest)));
+        text = rest;
+    }
+    found
 }
 
 /// The interval that a text begins with `[s]`.
@@ -50,41 +58,64 @@ fn interval_at(rest: &str) -> Option<f64> {
     let touching = if number(&rest[..end]).is_some() { "" } else { &rest[..end] };
     let unit = touching.trim_matches(|c: char| !c.is_alphabetic());
     let next = || rest[end..].split(|c: char| !c.is_alphanumeric()).find(|word| !word.is_empty());
-    if unit.is_empty() && next().is_some_and(|word| word.eq_ignore_ascii_case(HERTZ)) {
+    if unit.is_empty() && is_rate(&rest[end..]) {
         return None;
     }
     let second = if unit.is_empty() { next().and_then(second).unwrap_or(1.0) } else { second(unit)? };
     Some(value * second).filter(|interval| *interval > 0.0)
 }
 
-/// Beginnings of words of lines whose units are not, or may not be, those of the samples: conversions and factors, and sizes of something else.
-const OF_ANOTHER: [&str; 6] = ["convert", "conversion", "multipl", "factor", "resolution", "noise"];
-
-/// Signs between the unit before and the one after a conversion.
-const ARROWS: [&str; 4] = ["->", "=>", "\u{2192}", "\u{21d2}"];
-
-/// Whether a line speaks of units that need not be those of the samples.
-fn is_of_another(line: &str) -> bool {
-    let lower = line.to_lowercase();
-    let mut words = lower.split(|c: char| !c.is_alphanumeric());
-    words.any(|word| OF_ANOTHER.iter().any(|begin| word.starts_with(begin)))
-        || ARROWS.iter().any(|arrow| line.contains(arrow))
+/// Whether the text behind a number makes it a rate: `200 HZ`, `100 (Hz)`, but not `0.01, HZ= 100`.
+fn is_rate(behind: &str) -> bool {
+    let text = behind.trim_start().trim_start_matches(['(', '[']);
+    let is_hertz = text.get(..HERTZ.len()).is_some_and(|word| word.eq_ignore_ascii_case(HERTZ));
+    is_hertz && !text[HERTZ.len()..].trim_start().starts_with(|c: char| c.is_alphanumeric() || "=:".contains(c))
 }
 
-/// Whether a line states a factor with its number, which no reader of tables applies: `scale factor: 0.001`, `multiply by 9.81`.
-pub fn states_factor(line: &str) -> bool {
+/// A unit of acceleration that the text above the samples states.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stated {
+    /// Line, from 1.
+    pub line: usize,
+    pub unit: AccelerationUnit,
+    /// Whether the text beside the unit speaks of a conversion, a factor, another quantity, or a second unit to choose from.
+    pub is_doubtful: bool,
+}
+
+/// Whether a part of a line speaks of units that need not be those of the samples.
+fn is_of_another(part: &str) -> bool {
+    let lower = part.to_lowercase();
+    let is_of_another = |word: &str| {
+        ["convert", "conversion", "multipli", "resolution"].iter().any(|begin| word.starts_with(begin))
+            || ["multiply", "factor", "factors", "noise", "or"].contains(&word)
+    };
+    lower.split(|c: char| !c.is_alphanumeric()).any(is_of_another)
+        || ["->", "=>", "\u{2192}", "\u{21d2}"].iter().any(|arrow| part.contains(arrow))
+}
+
+/// The factor that a line states, which no reader of tables applies: `scale factor: 0.001`, `multiply by 9.81`. Not a factor of one, nor that of something
+/// else (`crest factor 4.2`).
+pub fn factor(line: &str) -> Option<f64> {
     let lower = line.to_lowercase();
-    let words = || lower.split(|c: char| !(c.is_alphanumeric() || c == '.'));
-    words().any(|word| word.starts_with("multipl") || word == "factor" || word.ends_with("_factor"))
-        && words().any(|word| number(word).is_some())
+    let words: Vec<&str> =
+        lower.split(|c: char| c.is_whitespace() || "=:()[]#%".contains(c)).filter(|word| !word.is_empty()).collect();
+    let is_factor = |place: usize| match words[place] {
+        "factor" | "factors" => {
+            place == 0
+                || ["scale", "scaling", "conversion", "calibration", "multiplication"].contains(&words[place - 1])
+        }
+        "by" => place > 0 && ["multiply", "multiplied", "scaled"].contains(&words[place - 1]),
+        word => ["scalefactor", "scale_factor"].contains(&word),
+    };
+    let behind = |place: usize| words[place + 1..].iter().find(|word| **word != "of");
+    let found = (0..words.len()).filter(|place| is_factor(*place)).find_map(|place| number(behind(place)?));
+    found.filter(|factor| *factor != 1.0)
 }
 
 /// The units of acceleration that a line states: in brackets, after `in`, `units` or `units of`, or by a name that is nothing but a unit (`cm/s2`). A unit
 /// beside a number or a factor belongs to that number: `peak 350 cm/s2`, `10^-2 m/s2`, `% of g`, `g / 10`, `gravity (9.81 m/s2)`.
-fn units_of(line: &str) -> Vec<AccelerationUnit> {
-    if is_of_another(line) {
-        return Vec::new();
-    }
+/// With each, whether it is doubtful ([`Stated::is_doubtful`]).
+fn units_of(line: &str) -> Vec<(AccelerationUnit, bool)> {
     let is_end = |c: char| c.is_whitespace() || ",;:=\"'".contains(c);
     // `cm / s / s` is one unit.
     let line = line.replace(" / s", "/s").replace(" / S", "/S");
@@ -112,10 +143,13 @@ fn units_of(line: &str) -> Vec<AccelerationUnit> {
         let follows_number = place > 0 && is_number(place - 1) && (!in_brackets || is_of_gravity);
         let (begin, end) = places[place];
         let is_multiple = has_factor(&line[..begin], &line[end..]);
-        let is_choice = last == "or" || words.get(place + 1).is_some_and(|next| bare(next) == "or");
+        let is_parting = [',', ';'];
+        let from = line[..begin].rfind(is_parting).unwrap_or(0);
+        let until = line[end..].find(is_parting).map_or(line.len(), |length| end + length);
         let name = word.trim_matches(['[', '(', ']', ')', '.']);
-        AccelerationUnit::parse(name)
-            .filter(|_| named && !is_number(place + 1) && !follows_number && !is_multiple && !is_choice)
+        let unit = AccelerationUnit::parse(name)
+            .filter(|_| named && !is_number(place + 1) && !follows_number && !is_multiple)?;
+        Some((unit, is_of_another(&line[from..until])))
     };
     (0..words.len()).filter_map(stated).collect()
 }
@@ -124,30 +158,40 @@ fn units_of(line: &str) -> Vec<AccelerationUnit> {
 const WHOLE: [&str; 10] =
     ["unit", "units", "fraction", "fractions", "term", "terms", "multiple", "multiples", "part", "parts"];
 
-/// The units that lines state, each with the number of its line, from 1.
-pub fn units<'t>(lines: impl Iterator<Item = (usize, &'t str)>) -> Vec<(usize, AccelerationUnit)> {
-    lines.flat_map(|(line, text)| units_of(text).into_iter().map(move |unit| (line, unit))).collect()
+/// The units that lines, numbered from 1, state.
+pub fn units<'t>(lines: impl Iterator<Item = (usize, &'t str)>) -> Vec<Stated> {
+    let of_line =
+        |(line, text)| units_of(text).into_iter().map(move |(unit, is_doubtful)| Stated { line, unit, is_doubtful });
+    lines.flat_map(of_line).collect()
 }
 
-/// The unit that a header states: of several the one that the options give, else the first.
+/// The unit that a header states: of several the one that the options give, else the first that is not doubtful.
 ///
 /// # Errors
-/// [`RecordError::Header`] if units differ and the options give none of them; with lenient options that is a warning.
+/// [`RecordError::Header`] if units differ, or the only one is doubtful, and the options give none of them; with lenient options that is a warning.
 pub fn one_unit(
-    stated: &[(usize, AccelerationUnit)],
+    stated: &[Stated],
     options: &TextOptions,
     warnings: &mut Vec<String>,
 ) -> Result<Option<(usize, AccelerationUnit)>, RecordError> {
-    if let Some(own) = stated.iter().find(|(_, unit)| options.units == Some(*unit)) {
-        return Ok(Some(*own));
+    if let Some(own) = stated.iter().find(|one| options.units == Some(one.unit)) {
+        return Ok(Some((own.line, own.unit)));
     }
-    let Some(&(first, unit)) = stated.first() else { return Ok(None) };
-    if let Some((line, other)) = stated.iter().find(|(_, other)| *other != unit) {
-        let problem = format!("the unit {other} is stated, and {unit} in line {first}");
+    let mut sure = stated.iter().filter(|one| !one.is_doubtful);
+    let Some(first) = sure.next() else {
+        let Some(doubtful) = stated.first().filter(|_| options.units.is_none()) else { return Ok(None) };
+        let unit = doubtful.unit;
+        let problem = format!("the unit {unit} stands beside a conversion, a factor, a choice or another quantity");
+        let remedy = "give `units`, or take it with `lenient`";
+        warnings.push(Entry { line: doubtful.line, text: "", remedy }.leniently(problem, options)?);
+        return Ok(Some((doubtful.line, unit)));
+    };
+    if let Some(other) = sure.find(|other| other.unit != first.unit) {
+        let problem = format!("the unit {} is stated, and {} in line {}", other.unit, first.unit, first.line);
         let remedy = "mend the wrong one, give `units`, or take the first with `lenient`";
-        warnings.push(Entry { line: *line, text: "", remedy }.leniently(problem, options)?);
+        warnings.push(Entry { line: other.line, text: "", remedy }.leniently(problem, options)?);
     }
-    Ok(Some((first, unit)))
+    Ok(Some((first.line, first.unit)))
 }
 
 #[cfg(test)]
@@ -170,16 +214,42 @@ mod tests {
             ("DT= -0.01", None),
             ("DT= 0,01", None),
             ("DT= 200 HZ", None),
+            ("dt = 100 (Hz)", None),
+            ("NPTS= 60, DT= 0.01, HZ= 100", Some(0.01)),
+            ("dt = 0.01, Hz = 100", Some(0.01)),
+            ("dt: 0.01 [Hz 100]", Some(0.01)),
             ("original dt = 0.005, resampled to dt = 0.01", Some(0.005)),
         ] {
             assert_eq!(interval(text), dt, "{text}");
         }
         assert_eq!(intervals("original dt = 0.005, resampled to dt = 10 ms"), [0.005, 0.01]);
+        assert_eq!(intervals("dt = 0.01 (sampling dt), t-dt 5"), [0.01]);
+    }
+
+    #[test]
+    fn factors_have_numbers() {
+        for (text, found) in [
+            ("scale factor: 0.001", Some(0.001)),
+            ("# scale_factor: 427336", Some(427_336.0)),
+            ("scalefactor=0.001", Some(0.001)),
+            ("multiply by 9.81 to get m/s2", Some(9.81)),
+            ("scaled by 0.5", Some(0.5)),
+            ("factor of 2", Some(2.0)),
+            ("Scale factor: 1.0", None),
+            ("crest factor 4.2", None),
+            ("Amplification factor, record 12", None),
+            ("multiple events of 1994", None),
+        ] {
+            assert_eq!(factor(text), found, "{text}");
+        }
     }
 
     #[test]
     fn units_are_those_of_the_samples() {
-        let of = |text: &'static str| units([(1, text)].into_iter()).first().map(|(_, unit)| unit.to_string());
+        let of = |text: &'static str| {
+            let stated = units([(1, text)].into_iter());
+            stated.first().filter(|one| !one.is_doubtful).map(|one| one.unit.to_string())
+        };
         for (text, unit) in [
             ("units m/s2", "m/s²"),
             ("Acceleration in m/s2", "m/s²"),
@@ -204,6 +274,13 @@ mod tests {
             ("NPTS=1991 DT=0.01 UNITS=M/S2", "m/s²"),
             ("NPTS=1991 DT=0.01 (cm/s/s)", "cm/s²"),
             ("IN UNITS OF G", "g"),
+            ("acceleration in multiples of g", "g"),
+            ("factory units: g", "g"),
+            ("Acceleration (g), noise removed", "g"),
+            ("Acceleration in g; quality factor Q=100", "g"),
+            ("units: g, amplification factor at site 1.2", "g"),
+            ("Acceleration (cm/s2), converted with a program", "cm/s²"),
+            ("CORRECTED RECORD IN CM/S2, NOISE FILTERED", "cm/s²"),
         ] {
             assert_eq!(of(text).as_deref(), Some(unit), "{text}");
         }
@@ -215,7 +292,7 @@ mod tests {
         for unit in [AccelerationUnit::G, AccelerationUnit::CentimetrePerSecondSquared] {
             assert_eq!(one(TextOptions { units: Some(unit), ..TextOptions::default() }), Ok(Some(unit)));
         }
-        assert_eq!(one(TextOptions { lenient: true, ..TextOptions::default() }), Ok(Some(both[0].1)));
+        assert_eq!(one(TextOptions { lenient: true, ..TextOptions::default() }), Ok(Some(both[0].unit)));
         for text in [
             "in % of g",
             "Kobe, acceleration (% of g)",

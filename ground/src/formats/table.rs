@@ -18,7 +18,7 @@ use super::header::{Entry, brief, listed, tidy};
 use super::heading::{Heading, Quantity, names_other_motion};
 use super::numbers::Samples;
 use super::record_file::{Format, RecordFile};
-use super::statement;
+use super::statement::{self, Stated};
 use crate::component::is_component;
 use crate::error::RecordError;
 use crate::options::TextOptions;
@@ -170,7 +170,8 @@ fn unit(
             entry.wrong(format!("`{unit}` of column `{name}` is no unit of acceleration that is known"))
         };
         let unit = entry.agreed(heading.acceleration().ok_or_else(unknown)?, options)?;
-        if let Some((line, stated)) = rows.stated_units.iter().find(|(_, stated)| *stated != unit) {
+        let is_other = |one: &&Stated| one.unit != unit && !one.is_doubtful;
+        if let Some(Stated { line, unit: stated, .. }) = rows.stated_units.iter().find(is_other) {
             let problem = format!("column `{}` is in {unit}, and line {line} states {stated}", brief(&heading.name));
             let remedy = "mend the wrong one, or take that of the column with `lenient`";
             warnings.push(Entry { remedy, ..entry }.leniently(problem, options)?);
@@ -181,7 +182,7 @@ fn unit(
         let stated = statement::one_unit(&rows.stated_units, options, warnings)?;
         return Ok(stated.ok_or(RecordError::Missing { quantity: "unit", key: "units" })?.1);
     };
-    if let Some((line, stated)) = rows.stated_units.iter().find(|(_, stated)| *stated != own) {
+    if let Some(Stated { line, unit: stated, .. }) = rows.stated_units.iter().find(|one| one.unit != own) {
         warnings.push(format!("line {line} states the unit {stated}, and `units` is given as {own}, which is taken"));
     }
     Ok(own)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Plan(ABC):
-    """Runs that make the rows of a table; the row of any index is found without the others."""
+    """Runs that make the rows of a table, a :class:`Sweep` or an :class:`Ida`; the row of any index is found without the others."""
 
     @abstractmethod
     def __len__(self) -> int:
@@ -26,7 +26,8 @@ class Plan(ABC):
         """Columns of the rows from ``start`` to before ``stop``, as the compiled module makes them."""
 
     def table(self, start: int = 0, stop: int | None = None, *, threads: int = 0) -> pd.DataFrame:
-        """Runs the runs from ``start`` to before ``stop``; a row each, with the columns of ``rocking sweep`` or ``rocking ida``.
+        """Runs the points of a sweep, or the runs of an analysis, from ``start`` to before ``stop``; a row each, with the columns of ``rocking sweep`` or
+        ``rocking ida``.
 
         ``threads`` is the number of threads, 0 for as many as the machine has; rows do not depend on it. A point of a sweep whose scene cannot be read or
         run is a row with ``outcome`` "error". Blank are ``NaN`` and ``NA``.
@@ -34,17 +35,17 @@ class Plan(ABC):
         Raises
         ------
         IndexError
-            For a ``stop`` after the last run.
+            For a ``stop`` after the last row.
         ValueError
             For a negative index, or more than 1024 threads.
         """
-        return frame(self._rows(start, stop, threads), start)
+        return frame(self._checked(start, stop, threads), start)
 
     def to_arrow(self, start: int = 0, stop: int | None = None, *, threads: int = 0) -> "pyarrow.Table":
         """As :meth:`table`, as a table of Arrow, without pandas in between; blanks are null, and names are dictionaries. Needs ``pyarrow``."""
-        return arrow(self._rows(start, stop, threads))
+        return arrow(self._checked(start, stop, threads))
 
-    def _rows(self, start: int, stop: int | None, threads: int) -> list[tuple[Any, ...]]:
+    def _checked(self, start: int, stop: int | None, threads: int) -> list[tuple[Any, ...]]:
         end = len(self) if stop is None else whole("stop", stop)
         return self._columns(whole("start", start), end, whole("threads", threads))
 

@@ -47,8 +47,8 @@ class Trust:
     further: dict[str, int] | None
     """More companions with changes up to 1e-6: how many ``runs``, and how many ``others`` failed or have another verdict; None where the first ones decide."""
     fold: dict[str, Any] | None
-    """The relative changes of the shaking that were ``tried``, each up and down, and in ``turns`` those of the smallest size that turn the verdict (overturning and collapse count as one). None for
-    a run that is not determined, or without ground motion."""
+    """The relative changes of the shaking that were ``tried``, each up and down, and in ``turns`` those of the smallest size that turn the verdict (overturning
+    and collapse count as one). None for a run that is not determined, or without ground motion."""
     sentence: str
     """Trust in a line, as ``rocking run`` prints it."""
 

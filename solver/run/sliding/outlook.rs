@@ -7,7 +7,7 @@ use crate::run::problem::Problem;
 /// Way that a slide has yet to go, as a share of the column's size, up to which it counts as ended.
 const VISIBLE_WAY: f64 = 1e-6;
 
-/// Whether some block is in flight, or slides so fast that it will go on visibly: until friction under the weight stops it, or without friction in as
+/// Whether some block is in flight, or slides so fast that it will go on visibly: until friction under the weight stops it or, without friction, in as
 /// much time again as the run took.
 pub fn slides_on(problem: &Problem, friction: &Coefficients, now: &Configuration) -> bool {
     let (column, duration) = (&problem.scene.column, problem.scene.options.t_end);
@@ -16,8 +16,9 @@ pub fn slides_on(problem: &Problem, friction: &Coefficients, now: &Configuration
         Some(Slip::Sticks) => false,
         Some(Slip::Slides(_)) => {
             let rate = now.slide_rate[interface].abs();
-            let (visible, deceleration) = (VISIBLE_WAY * column.size(), friction.kinetic[interface] * column.gravity());
-            rate * rate > 2.0 * deceleration * visible && rate * duration > visible
+            let deceleration = friction.kinetic[interface] * column.gravity();
+            let way = if deceleration > 0.0 { rate * rate / (2.0 * deceleration) } else { rate * duration };
+            way > VISIBLE_WAY * column.size()
         }
     };
     (0..now.joints.len()).any(goes_on)

@@ -96,13 +96,14 @@ impl Fragility {
 
     /// Warning that higher levels do not always make the state more likely; `None` if they do.
     fn not_monotonic(&self) -> Option<String> {
+        let curve = if self.probability(1.0).is_some() { ", which no lognormal curve shows" } else { "" };
         let mut reasons = Vec::new();
         if !self.falls.is_empty() {
             let falls = self.falls.iter().map(|[from, to]| format!("{} to {}", brief(*from), brief(*to)));
             let falls = first_few(falls.collect());
             if self.is_fall_of_undecided_runs() {
                 return Some(format!(
-                    "the share of the decided runs falls from level {falls}, where other runs are undecided: no record is known to come back; see the raw shares"
+                    "the share of the decided runs falls from level {falls}, where other runs are undecided: no record is known to come back; see the raw shares{curve}"
                 ));
             }
             reasons.push(format!("the share of runs falls from level {falls}"));
@@ -112,14 +113,18 @@ impl Fragility {
             let reason = "record(s) reach the state and do not at a higher level";
             reasons.push(format!("{count} of {} {reason} ({names})", self.records));
         }
-        let curve = if self.probability(1.0).is_some() { ", which no lognormal curve shows" } else { "" };
         (!reasons.is_empty()).then(|| format!("not monotonic: {}; see the raw shares{curve}", reasons.join("; ")))
     }
 
-    /// Whether shares fall, as far as is known, because the runs of other records are undecided.
+    /// Whether shares fall, as far as is known, because the runs of other records are undecided: all levels have as many runs.
     fn is_fall_of_undecided_runs(&self) -> bool {
-        let is_whole = |level: f64| self.counts.iter().any(|count| count.level == level && count.undecided == 0);
-        let is_open = |[from, to]: &[f64; 2]| !is_whole(*from) || !is_whole(*to);
+        let count = |level: f64| self.counts.iter().find(|count| count.level == level);
+        let is_open = |[from, to]: &[f64; 2]| match (count(*from), count(*to)) {
+            (Some(from), Some(to)) => {
+                from.undecided + to.undecided > 0 && from.runs + from.undecided == to.runs + to.undecided
+            }
+            _ => false,
+        };
         self.resurrections.is_empty() && !self.differ_beside_level && self.falls.iter().all(is_open)
     }
 

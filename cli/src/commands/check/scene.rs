@@ -353,7 +353,7 @@ impl MotionFindings {
             false => "beyond what numbers hold".into(),
         };
         let is_displaced = displacement.abs() > DISPLACED_SHARE * pgd;
-        let unfelt = if is_displaced { "; a column feels accelerations alone" } else { "" };
+        let unfelt = if is_displaced { " (which does not load the column: accelerations alone do)" } else { "" };
         let _ = writeln!(text, "  ends at {end:.4} s; the ground is left {left}{unfelt}");
         // Zeros at the end of a record are no motion.
         if self.motion.moves_after(t_end) {

@@ -2,8 +2,8 @@
 //! Makris & Konstantinidis (2003), Earthq. Eng. Struct. Dyn. 32.
 //!
 //! In a sweep over records, each combination (records left out) has a panel, with thin curves of the records and with their fractiles. Where the
-//! column is lost, a curve runs along the upper edge, and comes back where the column stands again. Where each block or interface has a curve, the column
-//! that is lost has a mark of its own: which block falls is not that of each curve.
+//! column is lost, a curve runs along the upper edge, and comes back where the column stands again. Where each block or interface has a curve, these
+//! are interrupted there, and a mark of its own says that the column is lost: only one of the blocks has fallen.
 
 use super::family::{Family, Rows};
 use super::place::{GAP, NUMBERS, Place, TITLE, line};

@@ -12,9 +12,8 @@ use crate::error::RecordError;
 use crate::formats::header::Entry;
 use crate::formats::heading::{Heading, Quantity, headings};
 use crate::formats::numbers::{Word, is_text, is_undefined, number, refused, split, words};
-use crate::formats::statement::{self, HEADER_LINES, names_count};
+use crate::formats::statement::{self, HEADER_LINES, Stated, names_count};
 use crate::options::TextOptions;
-use crate::unit::AccelerationUnit;
 
 /// The column of a table whose samples fill row after row, and so all columns.
 pub const ALL: &str = "all";
@@ -36,7 +35,7 @@ pub struct Rows {
     /// Warnings, a sentence each.
     pub warnings: Vec<String>,
     /// Lines, from 1, and units that the text above the numbers states, the headings excepted.
-    pub stated_units: Vec<(usize, AccelerationUnit)>,
+    pub stated_units: Vec<Stated>,
     /// Lines, from 1, and sampling intervals `[s]` that the text above the numbers states.
     pub stated_intervals: Vec<(usize, f64)>,
 }
@@ -82,9 +81,10 @@ impl Rows {
             .unwrap_or_default();
         let text = || header.clone().map(|index| (index + 1, lines[index]));
         rows.warnings = warnings;
-        let factor = text().find(|(_, text)| statement::states_factor(text));
-        rows.warnings
-            .extend(factor.map(|(line, _)| format!("line {line} states a factor; the samples are taken as they are")));
+        let factor = text().find_map(|(line, text)| Some((line, statement::factor(text)?)));
+        rows.warnings.extend(factor.map(|(line, factor)| {
+            format!("line {line} states the factor {factor}; the samples are taken as they are")
+        }));
         rows.stated_units = statement::units(text().filter(|(line, _)| *line != rows.headings.0));
         rows.stated_intervals =
             text().flat_map(|(line, text)| statement::intervals(text).into_iter().map(move |dt| (line, dt))).collect();
@@ -125,7 +125,12 @@ impl Rows {
 /// The headings of a line above so many columns. Above one column an acceleration with its unit is one name: `Acceleration in g`.
 fn headings_of(text: &str, above: Option<&str>, columns: usize) -> Vec<Heading> {
     let whole = Heading::parse(text);
-    let is_whole = columns == 1 && whole.quantity() == Some(Quantity::Acceleration) && whole.acceleration().is_some();
+    let sure =
+        |unit| matches!(statement::units([(1, text)].into_iter())[..], [one] if one.unit == unit && !one.is_doubtful);
+    let is_whole = columns == 1
+        && whole.quantity() == Some(Quantity::Acceleration)
+        && whole.acceleration().is_some_and(sure)
+        && !statement::is_pair(text);
     if is_whole { vec![whole] } else { headings(text, above) }
 }
 
@@ -152,7 +157,7 @@ fn first_row(body: &[(usize, &str)]) -> Result<usize, RecordError> {
     };
     let below = first + body[first..].iter().take_while(|(_, text)| begins_with_letter(text)).count();
     if let (true, Some((line, row))) = (below > first, body.get(below))
-        && heads(body[below - 1].1, row)
+        && heads_with_components(body[below - 1].1, row)
         && split(row, *line).is_ok()
     {
         first = below;
@@ -306,11 +311,22 @@ fn remark_with_headings(
     (names.len() == columns && is_named && !names.iter().any(is_value)).then_some((index + 1, names))
 }
 
-/// Whether a line names all columns of the `row` of numbers below it, each with the name or the unit of a quantity, or the name of a component.
+/// Whether a line names all columns of the `row` of numbers below it, each with the name or the unit of a quantity.
 pub fn heads(line: &str, row: &str) -> bool {
-    let names = headings(line.trim_start().trim_start_matches(REMARK), None);
-    let is_name = |heading: &Heading| heading.quantity().is_some() || is_component(&heading.name);
-    names.len() == words(row).count() && names.iter().all(is_name)
+    heads_by(line, row, |heading| heading.quantity().is_some())
+}
+
+/// As [`heads`]; names of components are names, too, but not numbers with decimals, as of places.
+fn heads_with_components(line: &str, row: &str) -> bool {
+    let is_decimal = |name: &str| name.contains('.') && number(name).is_some();
+    let is_own = |heading: &Heading| is_component(&heading.name) && !is_decimal(&heading.name);
+    heads_by(line, row, |heading| heading.quantity().is_some() || is_own(heading))
+}
+
+fn heads_by(line: &str, row: &str, is_name: impl Fn(&Heading) -> bool) -> bool {
+    let columns = words(row).count();
+    let names = headings_of(line.trim_start().trim_start_matches(REMARK), None, columns);
+    names.len() == columns && names.iter().all(is_name)
 }
 
 /// Fewest numbers below a count: a shorter table may begin with any number.
