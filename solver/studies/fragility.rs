@@ -446,7 +446,7 @@ mod tests {
             assert_eq!((found.falls.len(), found.resurrections.len()), (1, 0));
             found.statements().into_iter().filter(|statement| statement.contains("falls from")).collect::<Vec<_>>()
         };
-        let expected = "the share of the decided runs falls from level 1 to 2, where other runs are undecided: no record is known to come back; see the raw shares";
+        let expected = "the share of the decided runs falls from level 1 to 2, where other runs are undecided: no record is known to come back; see the raw shares, which no lognormal curve shows";
         assert_eq!(told(all().map(undecided).collect()), [expected]);
     }
 
