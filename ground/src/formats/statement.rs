@@ -82,15 +82,19 @@ pub struct Stated {
     pub is_doubtful: bool,
 }
 
-/// Whether a part of a line speaks of units that need not be those of the samples.
-fn is_of_another(part: &str) -> bool {
-    let lower = part.to_lowercase();
-    let is_of_another = |word: &str| {
-        ["convert", "conversion", "multipli", "resolution"].iter().any(|begin| word.starts_with(begin))
-            || ["multiply", "factor", "factors", "noise", "or"].contains(&word)
+/// Whether the text before and after a unit in its part of a line says that the unit need not be that of the samples: a conversion or a factor on either side, or
+/// the name of another quantity before it.
+fn is_of_another(before: &str, after: &str) -> bool {
+    let any_word =
+        |text: &str, is: &dyn Fn(&str) -> bool| text.to_lowercase().split(|c: char| !c.is_alphanumeric()).any(is);
+    let is_conversion = |word: &str| {
+        ["convert", "conversion", "multipli"].iter().any(|begin| word.starts_with(begin))
+            || ["multiply", "factor", "factors"].contains(&word)
     };
-    lower.split(|c: char| !c.is_alphanumeric()).any(is_of_another)
-        || ["->", "=>", "\u{2192}", "\u{21d2}"].iter().any(|arrow| part.contains(arrow))
+    let is_quantity = |word: &str| ["resolution", "noise"].contains(&word);
+    let is_arrow = |text: &str| ["->", "=>", "\u{2192}", "\u{21d2}"].iter().any(|arrow| text.contains(arrow));
+    [before, after].into_iter().any(|text| any_word(text, &is_conversion) || is_arrow(text))
+        || any_word(before, &is_quantity)
 }
 
 /// The factor that a line states, which no reader of tables applies: `scale factor: 0.001`, `multiply by 9.81`. Not a factor of one, nor that of something
@@ -149,7 +153,8 @@ fn units_of(line: &str) -> Vec<(AccelerationUnit, bool)> {
         let name = word.trim_matches(['[', '(', ']', ')', '.']);
         let unit = AccelerationUnit::parse(name)
             .filter(|_| named && !is_number(place + 1) && !follows_number && !is_multiple)?;
-        Some((unit, is_of_another(&line[from..until])))
+        let is_choice = last == "or" || words.get(place + 1).is_some_and(|next| bare(next) == "or");
+        Some((unit, is_choice || is_of_another(&line[from..begin], &line[end..until])))
     };
     (0..words.len()).filter_map(stated).collect()
 }
@@ -276,6 +281,9 @@ mod tests {
             ("IN UNITS OF G", "g"),
             ("acceleration in multiples of g", "g"),
             ("factory units: g", "g"),
+            ("Acceleration in g (north or south)", "g"),
+            ("units: g resolution: 16 bit", "g"),
+            ("Acceleration in g (noise removed)", "g"),
             ("Acceleration (g), noise removed", "g"),
             ("Acceleration in g; quality factor Q=100", "g"),
             ("units: g, amplification factor at site 1.2", "g"),
