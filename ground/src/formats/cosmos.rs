@@ -35,8 +35,8 @@ const AZIMUTH: usize = 53;
 /// from 1. Place 33 holds the interval of the recorder, which processing may have changed; some files have it in seconds.
 const INTERVALS: [usize; 3] = [61, 60, 33];
 
-/// Intervals below this are no milliseconds, but seconds: recorders take 20 to 1000 samples a second `[ms]`.
-const SHORTEST_INTERVAL: f64 = 0.5;
+/// A number below this is an interval in seconds, one above it in milliseconds: recorders take a sample every 1 to 50 ms.
+const BETWEEN_SECONDS_AND_MILLISECONDS: f64 = 0.5;
 
 /// Place of the peak among the reals. The peak is in the unit of the samples.
 const PEAK: usize = 63;
@@ -270,7 +270,10 @@ impl<'t> Channel<'t> {
             .into_iter()
             .filter_map(|place| Some((place, *reals.get(place)?)))
             .filter(|(_, ms)| *ms > 0.0)
-            .map(|(place, ms)| (place, if place == INTERVALS[2] && ms < SHORTEST_INTERVAL { ms } else { ms / 1000.0 }))
+            .map(|(place, number)| {
+                let is_in_seconds = place == INTERVALS[2] && number < BETWEEN_SECONDS_AND_MILLISECONDS;
+                (place, if is_in_seconds { number } else { number / 1000.0 })
+            })
             .collect();
         let goes = |dt: f64| {
             duration.is_none_or(|duration| {

@@ -22,6 +22,7 @@ pub struct SlidingState {
 }
 
 impl SlidingState {
+    /// When the state is.
     pub fn now(&self) -> SegmentTime {
         SegmentTime { t: self.t, segment: self.segment }
     }

@@ -191,6 +191,7 @@ fn single(measure: &Measure, family: &Family, rows: &[Vec<Rows>]) -> Vec<Curve> 
             };
             let lost = |number: Option<f64>| number.filter(|number| number.is_infinite());
             let of_lost = Curve {
+                // Of a mark, the colour alone counts.
                 stroke: Stroke::solid(style::INK, 0.0),
                 is_joined: false,
                 name: COLUMN_LOST.into(),
