@@ -127,13 +127,21 @@ def test_a_killed_worker_loses_nothing(most_bytes: int, client_to_be_hurt: Any, 
     assert victims[0] not in client.run(os.getpid).values()
 
 
-def test_a_partition_takes_about_as_long_as_asked() -> None:
-    size = rd.partition_size(SWEEP, seconds=0.5)
-    begin = time.perf_counter()
-    SWEEP.table(0, min(size, len(SWEEP)), threads=1)
-    spent = (time.perf_counter() - begin) * max(size / len(SWEEP), 1.0)
-    # Runs differ, and so do moments of a machine that others use.
-    assert 1 <= size <= rd.MOST_ROWS and 0.05 < spent < 5.0
+def test_a_partition_takes_as_long_as_asked(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert 1 <= rd.partition_size(SWEEP) <= rd.MOST_ROWS
+    table, computed = rk.Sweep.table, 0
+
+    def counted(sweep: rk.Sweep, start: int, stop: int, **options: Any) -> pd.DataFrame:
+        nonlocal computed
+        computed += stop - start
+        return table(sweep, start, stop, **options)
+
+    # By a clock on which each row takes a millisecond.
+    monkeypatch.setattr(rk.Sweep, "table", counted)
+    monkeypatch.setattr(rd.time, "process_time", lambda: 1e-3 * computed)
+    assert [rd.partition_size(SWEEP, seconds=seconds) for seconds in (1e-9, 0.5, 1e9)] == [1, 500, rd.MOST_ROWS]
+    assert rd.partition_size(SWEEP, seconds=0.5, threads=2) == 1000
+    monkeypatch.undo()
     with pytest.raises(ValueError, match="at least one row"):
         rd.frame(SWEEP, partition_size=0)
     with pytest.raises(ValueError, match="threads = -2"):
