@@ -472,8 +472,16 @@ fn headers_may_state_the_interval() {
         "dt = 0.01 s, units g",
         "Acceleration [g]\nDT= 0.01",
         "El Centro\nDT= 0.01 SEC\nNS",
+        "SAMPLING INTERVAL (sec): 0.01",
+        "Sampling period = 10 ms",
+        "Sampling rate: 100 Hz",
+        "Sampling Freq(Hz)  100Hz",
+        "20 values, 100 samples per second\nAcceleration in g",
+        "Acceleration in g at equally spaced intervals of 0.01 sec",
     ] {
-        assert!(agrees(&read(&table(header, value), &in_g()), G, 0.01), "{header}");
+        for header in [header.to_string(), format!("# {}", header.replace('\n', "\n# "))] {
+            assert!(agrees(&read(&table(&header, value), &in_g()), G, 0.01), "{header}");
+        }
     }
     let named = table("time (ms), acc (cm/s2)\nDT= 0.01", |k, a| format!("{},{a}", 10 * k));
     assert!(agrees(&read(&named, &options()), 0.01, 0.01));
@@ -551,6 +559,19 @@ fn remarks_on_conversions_state_no_unit() {
 fn an_at2_file_with_a_component_is_no_table() {
     let text = table("PEER\nX\nACCELERATION IN M/S2\nNPTS= 4000, DT= 0.01 SEC\nNS", value);
     assert!(refused(&text, &options()).contains("declares 4000 samples and the file has 20"));
+}
+
+/// Samples that were taken at another rate than those of the file say nothing of it; an interval and a rate that differ are refused.
+#[test]
+fn rates_and_intervals_agree() {
+    let text = table("# original sampling rate: 200 Hz\n# sampling rate: 100 Hz", value);
+    assert!(agrees(&read(&text, &in_g()), G, 0.01));
+    let text = table("# sampling interval: 0.01 s\n# sampling rate: 200 Hz", value);
+    assert!(refused(&text, &in_g()).contains("a sampling interval of 0.005 s is stated, and one of 0.01 s in line 1"));
+    // Neither a number of steps nor a rate below one a second.
+    for remark in ["# time step number 5", "# sampling rate: 0.01", "# fs 100", "# confidence interval of 0.95"] {
+        assert!(refused(&table(remark, value), &in_g()).contains("no recognised sampling interval"), "{remark}");
+    }
 }
 
 /// Two intervals in one line are as doubtful as in two; a rate is no interval.

@@ -17,6 +17,7 @@ use super::header::{Entry, brief, number_after, tidy};
 use super::heading::Quantity;
 use super::numbers::{Block, FixedWidth, is_remark, number, words};
 use super::record_file::{Format, RecordFile};
+use super::sampling;
 use super::statement::{self, HEADER_LINES, Stated, names_count};
 use super::table;
 use crate::error::RecordError;
@@ -103,7 +104,7 @@ fn unit_in_text(
 /// Count and interval of a line. The numbers follow their names (`NPTS= 4000, DT= .01 SEC`), or two numbers stand in the order of the names
 /// (`4000 .01 NPTS, DT`).
 fn count_and_interval(line: &str) -> (Option<f64>, Option<f64>) {
-    let (count, dt) = (number_after(line, "NPTS"), statement::interval(line));
+    let (count, dt) = (number_after(line, "NPTS"), sampling::interval(line));
     let mut numbers = words(line).filter_map(|word| number(word.text));
     let (None, Some(first), Some(second)) = (count, numbers.next(), numbers.next()) else { return (count, dt) };
     let upper = line.to_ascii_uppercase();

@@ -1,8 +1,7 @@
-//! What the free text of a header states: the number of samples, their interval and their unit.
+//! What the free text of a header states: the number of samples and their unit.
 
 use super::factor::has_factor;
 use super::header::{Entry, leading_number, place_after};
-use super::heading::{HERTZ, second};
 use super::numbers::number;
 use crate::error::RecordError;
 use crate::options::TextOptions;
@@ -26,50 +25,6 @@ pub fn is_pair(line: &str) -> bool {
         && name.chars().all(is_word)
         && !value.trim().is_empty()
         && !value.contains(|c: char| is_sign(c) || ",;\t".contains(c))
-}
-
-/// The first of the [`intervals`] that a line states `[s]`.
-pub fn interval(line: &str) -> Option<f64> {
-    intervals(line).into_iter().next()
-}
-
-/// The sampling intervals that follow `DT` `[s]`: `DT= .01 SEC`, `dt = 10 ms`. Neither a fraction (`1/100`) nor an unknown unit of time gives one. From the
-/// second on, an interval has a sign of equality: `original dt = 0.005, resampled to dt = 0.01`.
-pub fn intervals(line: &str) -> Vec<f64> {
-    let behind = |text| place_after(text, "DT");
-    let has_sign = |text: &str, rest: &str| text[..text.len() - rest.len()].trim_end().ends_with(['=', ':']);
-    let mut found: Vec<f64> = Vec::new();
-    let mut text = line;
-    while let Some(rest) = behind(text) {
-        found.extend(interval_at(rest).filter(|_| found.is_empty() || has_sign(text, rest)));
-        text = rest;
-    }
-    found
-}
-
-/// The interval that a text begins with `[s]`.
-fn interval_at(rest: &str) -> Option<f64> {
-    let end = rest.find(|c: char| c.is_whitespace() || ",;/".contains(c)).unwrap_or(rest.len());
-    let value = leading_number(rest)?;
-    if rest[end..].starts_with('/') {
-        return None;
-    }
-    // A unit touches the number, or may be the next word. The E of an exponent is no unit.
-    let touching = if number(&rest[..end]).is_some() { "" } else { &rest[..end] };
-    let unit = touching.trim_matches(|c: char| !c.is_alphabetic());
-    let next = || rest[end..].split(|c: char| !c.is_alphanumeric()).find(|word| !word.is_empty());
-    if unit.is_empty() && is_rate(&rest[end..]) {
-        return None;
-    }
-    let second = if unit.is_empty() { next().and_then(second).unwrap_or(1.0) } else { second(unit)? };
-    Some(value * second).filter(|interval| *interval > 0.0)
-}
-
-/// Whether the text behind a number makes it a rate: `200 HZ`, `100 (Hz)`, but not `0.01, HZ= 100`.
-fn is_rate(behind: &str) -> bool {
-    let text = behind.trim_start().trim_start_matches(['(', '[']);
-    let is_hertz = text.get(..HERTZ.len()).is_some_and(|word| word.eq_ignore_ascii_case(HERTZ));
-    is_hertz && !text[HERTZ.len()..].trim_start().starts_with(|c: char| c.is_alphanumeric() || "=:".contains(c))
 }
 
 /// A unit of acceleration that the text above the samples states.
@@ -202,34 +157,6 @@ pub fn one_unit(
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn intervals_have_units() {
-        for (text, dt) in [
-            ("NPTS=1991, DT= .01000 SEC", Some(0.01)),
-            ("DT=.01SEC", Some(0.01)),
-            ("dt = 10 ms", Some(0.01)),
-            ("DT= 10MSEC", Some(0.01)),
-            ("DT= 1.0E-02 sec", Some(0.01)),
-            ("DT=1E-2", Some(0.01)),
-            ("DT= .01, NPTS= 4", Some(0.01)),
-            ("DT= 1/100 SEC", None),
-            ("DT=1E-2SEC", None),
-            ("WIDTH= 3", None),
-            ("DT= -0.01", None),
-            ("DT= 0,01", None),
-            ("DT= 200 HZ", None),
-            ("dt = 100 (Hz)", None),
-            ("NPTS= 60, DT= 0.01, HZ= 100", Some(0.01)),
-            ("dt = 0.01, Hz = 100", Some(0.01)),
-            ("dt: 0.01 [Hz 100]", Some(0.01)),
-            ("original dt = 0.005, resampled to dt = 0.01", Some(0.005)),
-        ] {
-            assert_eq!(interval(text), dt, "{text}");
-        }
-        assert_eq!(intervals("original dt = 0.005, resampled to dt = 10 ms"), [0.005, 0.01]);
-        assert_eq!(intervals("dt = 0.01 (sampling dt), t-dt 5"), [0.01]);
-    }
 
     #[test]
     fn factors_have_numbers() {

@@ -12,6 +12,7 @@ use crate::error::RecordError;
 use crate::formats::header::Entry;
 use crate::formats::heading::{Heading, Quantity, headings};
 use crate::formats::numbers::{Word, is_text, is_undefined, number, refused, split, words};
+use crate::formats::sampling;
 use crate::formats::statement::{self, HEADER_LINES, Stated, names_count};
 use crate::options::TextOptions;
 
@@ -56,7 +57,7 @@ impl Rows {
         let columns = body.get(first).map_or(0, |(_, row)| words(row).count());
         let names_columns = |text: &str| headings_of(text, None, columns).len() == columns;
         let is_pair = |text: &str| statement::is_pair(text) && !names_columns(text);
-        let is_statement = |text: &str| statement::interval(text).is_some() || is_pair(text);
+        let is_statement = |text: &str| sampling::interval(text).is_some() || is_pair(text);
         let last_text = body[..first].iter().rposition(|(_, text)| !is_statement(text));
         let has_pairs = |place: usize| body[place + 1..first].iter().any(|(_, text)| is_pair(text));
         let last_text = last_text.filter(|place| !has_pairs(*place) || names_columns(body[*place].1));
@@ -87,7 +88,7 @@ impl Rows {
         }));
         rows.stated_units = statement::units(text().filter(|(line, _)| *line != rows.headings.0));
         rows.stated_intervals =
-            text().flat_map(|(line, text)| statement::intervals(text).into_iter().map(move |dt| (line, dt))).collect();
+            text().flat_map(|(line, text)| sampling::intervals(text).into_iter().map(move |dt| (line, dt))).collect();
         Ok(rows)
     }
 
@@ -145,8 +146,8 @@ fn first_row(body: &[(usize, &str)]) -> Result<usize, RecordError> {
     // The lines of text above the numbers are titles and headings. A line with the number of samples is a title, as are all lines above it, and so is one
     // with their interval.
     let counted = body.iter().take(HEADER_LINES).rposition(|(_, text)| names_count(text)).map_or(0, |place| place + 1);
-    let is_header = |(_, text): &&(usize, &str)| match statement::interval(text) {
-        Some(_) => !names_another_quantity(text),
+    let is_header = |(_, text): &&(usize, &str)| match sampling::interval(text) {
+        Some(_) => !names_another_quantity(&sampling::without_names(text)),
         None => is_text(text),
     };
     let mut first = counted + body[counted..].iter().take_while(is_header).count();
