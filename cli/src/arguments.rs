@@ -3,6 +3,7 @@
 use crate::keys::Kind;
 pub use crate::plot::Picture;
 use crate::plot::WIDTHS_MM;
+use crate::threads::Threads;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
@@ -213,6 +214,8 @@ pub struct Run {
     /// Follow a run by its companions although it took more than five seconds.
     #[arg(long, conflicts_with = "no_trust")]
     pub trust: bool,
+    #[command(flatten)]
+    pub threads: Threads,
     /// Print nothing but errors.
     #[arg(long, short)]
     pub quiet: bool,
@@ -366,9 +369,8 @@ pub struct Sweep {
     /// Run the K-th of M parts only; `rocking merge` joins their tables.
     #[arg(long, value_name = "K/M", value_parser = Shard::parse)]
     pub shard: Option<Shard>,
-    /// Threads; as many as the machine has unless given.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
-    pub threads: Option<u16>,
+    #[command(flatten)]
+    pub threads: Threads,
     /// Print nothing but errors.
     #[arg(long, short)]
     pub quiet: bool,
@@ -403,9 +405,8 @@ pub struct Ida {
     /// Draw the curves of all records with their fractiles, and beside it FILE-fragility: the fragility curves (SVG, PNG or PDF by the name).
     #[arg(long, value_name = "FILE", value_parser = figure)]
     pub plot: Option<PathBuf>,
-    /// Threads; as many as the machine has unless given.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
-    pub threads: Option<u16>,
+    #[command(flatten)]
+    pub threads: Threads,
     /// Print nothing but errors.
     #[arg(long, short)]
     pub quiet: bool,
@@ -447,6 +448,8 @@ pub struct Fragility {
     /// Draw the curves (SVG, PNG or PDF by the name).
     #[arg(long, value_name = "FILE", value_parser = figure)]
     pub plot: Option<PathBuf>,
+    #[command(flatten)]
+    pub threads: Threads,
     /// Print JSON instead of text.
     #[arg(long)]
     pub json: bool,
@@ -496,9 +499,6 @@ impl std::fmt::Display for Shard {
         write!(f, "{}-of-{}", self.number, self.count)
     }
 }
-
-/// Largest accepted number of threads. Each thread has a stack; a larger number is taken for a mistake.
-const MOST_THREADS: i64 = 1024;
 
 /// Largest number of blocks for which modes are listed or derived: the (3^12 - 1)/2 modes of twelve blocks are more than anybody reads.
 const LARGEST_LISTED: i64 = 12;

@@ -18,6 +18,7 @@ mod report;
 mod table;
 mod terminal;
 mod text;
+mod threads;
 
 use arguments::Arguments;
 use clap::{CommandFactory, FromArgMatches};

@@ -296,7 +296,9 @@ fn rows_that_are_cut_or_of_another_sweep_are_not_merged() {
 fn threads_are_some_and_not_too_many() {
     let folder = folder(SWEEP);
     for threads in ["0", "5000", "two"] {
-        folder.refused(&format!("sweep sweep.toml --threads {threads}"), &["--threads"]);
+        for command in ["sweep sweep.toml", "run scene.toml", "fragility t.csv"] {
+            folder.refused(&format!("{command} --threads {threads}"), &["--threads"]);
+        }
     }
 }
 

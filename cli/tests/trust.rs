@@ -43,8 +43,14 @@ fn a_chaotic_run_is_not_determined_in_text_summary_figure_and_report() {
     assert!(!folder.has("with/companions.csv"));
     assert!(folder.json("with/summary.json")["trust"].is_null());
 
-    // A damaged band is refused with its line.
+    // On one thread: the same files.
     folder.succeeds("run chaotic.toml --out with");
+    let files = ["companions.csv", "response.csv", "events.json"];
+    let whole = files.map(|name| folder.read(&format!("with/{name}")));
+    folder.succeeds("run chaotic.toml --out with --threads 1");
+    assert_eq!(files.map(|name| folder.read(&format!("with/{name}"))), whole);
+
+    // A damaged band is refused with its line.
     let band = folder.read("with/companions.csv");
     folder.write("with/companions.csv", band.replacen("\n0.0,", "\nnought,", 1));
     folder.refused("report with", &["companions.csv", "line 2"]);

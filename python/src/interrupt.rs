@@ -123,12 +123,12 @@ pub fn in_order<T: Send, W: FnMut(usize) -> T>(
     Ok(made)
 }
 
-/// What `work` returns, on as many threads as the machine has. Its argument shows when a signal has ended it.
+/// What `work` returns, which may use so many threads, 0 for as many as the machine has. Its argument shows when a signal has ended it.
 ///
 /// # Errors
-/// What a handler of signals raised. `OSError` if there is no pool.
-pub fn on_all_threads<T: Send>(py: Python<'_>, work: impl FnOnce(&Ended) -> T + Send) -> PyResult<T> {
-    let (pool, mut signals, ended) = (pool(0)?, Signals::new(), Ended::default());
+/// What a handler of signals raised. `ValueError` for too many threads, `OSError` if there is no pool.
+pub fn on_threads<T: Send>(py: Python<'_>, threads: usize, work: impl FnOnce(&Ended) -> T + Send) -> PyResult<T> {
+    let (pool, mut signals, ended) = (pool(threads)?, Signals::new(), Ended::default());
     let done = py.detach(|| {
         std::thread::scope(|scope| {
             let (running, finished) = channel::<()>();

@@ -1,7 +1,7 @@
 //! Scenes, read from the keys of a scene file.
 
 use crate::error;
-use crate::interrupt::{Signals, on_all_threads};
+use crate::interrupt::{Signals, on_threads};
 use crate::keys::to_toml;
 use crate::origin::Origin;
 use crate::record::{Record, intensity};
@@ -31,8 +31,8 @@ struct Pickled<S, O> {
 }
 
 /// Runs the companions of a run and returns what they say.
-fn follow(py: Python<'_>, scene: &rocking::Scene, response: &rocking::Response) -> PyResult<Trust> {
-    let followed = on_all_threads(py, |ended| {
+fn follow(py: Python<'_>, scene: &rocking::Scene, response: &rocking::Response, threads: usize) -> PyResult<Trust> {
+    let followed = on_threads(py, threads, |ended| {
         follow_run_observed(scene, response, TrustOptions::default(), |_| ended.progress())
     })?;
     followed.map_err(|failed| error::solve(py, &failed))
@@ -99,9 +99,17 @@ impl Scene {
         Ok(Scene { scene: Arc::new(scene), origin: Arc::new(Origin { file, text }) })
     }
 
-    /// Runs the scene, and its companions where trust is asked for.
-    #[pyo3(signature = (*, rows, forces, wanted, trust))]
-    fn run(&self, py: Python<'_>, rows: bool, forces: bool, wanted: &str, trust: bool) -> PyResult<Response> {
+    /// Runs the scene, and its companions, on so many threads, where trust is asked for.
+    #[pyo3(signature = (*, rows, forces, wanted, trust, threads))]
+    fn run(
+        &self,
+        py: Python<'_>,
+        rows: bool,
+        forces: bool,
+        wanted: &str,
+        trust: bool,
+        threads: usize,
+    ) -> PyResult<Response> {
         let wanted = match wanted {
             "everything" => Wanted::Everything,
             "outcome" => Wanted::Outcome,
@@ -134,7 +142,7 @@ impl Scene {
         let seconds = start.elapsed().as_secs_f64();
         signals.finish()?;
         let response = result.map_err(|failed| error::solve(py, &failed))?;
-        let trust = trust.then(|| follow(py, &scene, &response)).transpose()?;
+        let trust = trust.then(|| follow(py, &scene, &response, threads)).transpose()?;
         Ok(Response { scene, origin: self.origin.clone(), response, trust, seconds })
     }
 

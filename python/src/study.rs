@@ -1,7 +1,7 @@
 //! Incremental dynamic analysis and fragility.
 
 use crate::error;
-use crate::interrupt::{in_order, on_all_threads};
+use crate::interrupt::{in_order, on_threads};
 use crate::origin::Origin;
 use crate::record::{Record, intensity};
 use crate::scene::Scene;
@@ -267,7 +267,8 @@ pub fn is_of_one_record(header: Vec<String>, level: usize) -> bool {
 
 /// The fragility of a limit state as JSON, and its statements.
 #[pyfunction]
-#[pyo3(signature = (runs, state, replicates = 1000, confidence = 0.9, seed = 0, layout = None))]
+#[pyo3(signature = (runs, state, replicates = 1000, confidence = 0.9, seed = 0, layout = None, threads = 0))]
+#[allow(clippy::too_many_arguments, reason = "arguments of Python have names")]
 pub fn fragility(
     py: Python<'_>,
     runs: Runs<'_>,
@@ -276,6 +277,7 @@ pub fn fragility(
     confidence: f64,
     seed: u64,
     layout: Option<&str>,
+    threads: usize,
 ) -> PyResult<(String, Vec<String>)> {
     let (differ_beside_level, runs) = (runs.differ_beside_level, runs.observations(py)?);
     let state: LimitState =
@@ -290,7 +292,7 @@ pub fn fragility(
         })
     };
     options.layout = layout.map(named).transpose()?;
-    let found = on_all_threads(py, |ended| Fragility::of_observed(&runs, state, &options, || ended.progress()))?;
+    let found = on_threads(py, threads, |ended| Fragility::of_observed(&runs, state, &options, || ended.progress()))?;
     let found = found.expect("a resampling that no signal has ended has a result");
     Ok((serde_json::to_string(&found).map_err(error::unwritable)?, found.statements()))
 }

@@ -521,6 +521,8 @@ def test_whole_numbers_are_named_with_their_range() -> None:
         (lambda: sweep.table(threads=-1), "threads = -1"),
         (lambda: study.fragility(replicates=-1), "replicates = -1"),
         (lambda: study.fragility(seed=-1), "seed = -1"),
+        (lambda: study.fragility(threads=-1), "threads = -1"),
+        (lambda: rk.simulate(SCENE, threads=-1), "threads = -1"),
         (lambda: rk.synthetic([-1]), "seed = -1"),
         (lambda: rk.Record.read("none", skip_rows=-1), "skip_rows = -1"),
     ]

@@ -42,7 +42,8 @@ pub fn fragility(request: &arguments::Fragility) -> Result<(), Failure> {
     }
     let outputs = [out.clone(), shares_beside(&out)].into_iter().chain(request.plot.clone());
     output::check(&outputs.collect::<Vec<_>>(), std::slice::from_ref(&request.table))?;
-    let mut conclusions = Conclusions::of(&runs, &measure, &states, &options);
+    let threads = request.threads.pool()?;
+    let mut conclusions = threads.install(|| Conclusions::of(&runs, &measure, &states, &options));
     conclusions.rows = rows;
     let mut report = conclusions.text();
     report.push_str(&conclusions.write_to(&out)?);

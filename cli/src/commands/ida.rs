@@ -6,7 +6,6 @@ use crate::arguments;
 use crate::commands::fragility::{self, Conclusions};
 use crate::commands::plot::write;
 use crate::commands::spectrum::beside;
-use crate::commands::sweep::threads;
 use crate::error::{Failure, at};
 use crate::output;
 use crate::plot::{self, Figure, Paper};
@@ -42,7 +41,7 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     output::check(&outputs, inputs)?;
     let target = output::target(out)?;
     check_replaced(&target)?;
-    let threads = threads(request.threads)?;
+    let threads = request.threads.pool()?;
     if !request.quiet {
         warn_of_some(&ida.warnings());
     }

@@ -44,7 +44,8 @@ pub fn run(request: &Run) -> Result<(), Failure> {
     .map_err(failed)?;
     let seconds = start.elapsed().as_secs_f64();
     bar.finish();
-    let follow = || Followed::of(request, &scene, &response, seconds);
+    let threads = request.threads.pool()?;
+    let follow = || threads.install(|| Followed::of(request, &scene, &response, seconds));
     let followed = if request.quiet { follow() } else { working("companions of the run", follow) }.map_err(failed)?;
     let mut finished = Finished::new(&scene, &response);
     finished.scene_text = SceneText { file: path.clone(), text };

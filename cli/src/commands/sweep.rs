@@ -39,7 +39,7 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
     let target = output::target(&out)?;
     check_replaced(&target)?;
     let columns = columns(&sweep)?;
-    let threads = threads(request.threads)?;
+    let threads = request.threads.pool()?;
     if !request.quiet {
         warn_of_some(&sweep.warnings(points(request, &sweep), POINTS_READ));
     }
@@ -144,12 +144,6 @@ pub fn is_row(sweep: &Sweep, columns: &[Column], row: &StringRecord, point: usiz
 
 /// Largest number of points whose scenes are read before a sweep runs: a scene takes some 10 µs, and each record is read once.
 pub const POINTS_READ: usize = 1000;
-
-/// A pool of `count` threads; without a count, as many as the machine has.
-pub fn threads(count: Option<u16>) -> Result<rayon::ThreadPool, Failure> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(count.map_or(0, usize::from)).build();
-    pool.map_err(|error| Failure::Threads(error.to_string()))
-}
 
 /// The files that a sweep is made of: records, the sweep file itself, and the base scene.
 pub fn inputs_of(file: &Path, sweep: &Sweep) -> Vec<PathBuf> {

@@ -15,7 +15,7 @@ import numpy.typing as npt
 import pandas as pd
 
 from . import _rocking
-from ._arguments import flag, path_text, text
+from ._arguments import flag, path_text, text, whole
 from ._errors import SceneError
 from ._motion import MotionLike
 from ._record import Array, _fixed
@@ -53,6 +53,7 @@ def simulate(
     forces: bool = True,
     wanted: str = "everything",
     trust: bool = False,
+    threads: int = 0,
     **arguments: "Unpack[SceneKeys]",
 ) -> "Run":
     """Runs a scene, or a column under a ground motion.
@@ -72,7 +73,9 @@ def simulate(
         ``everything``, ``outcome`` (whether and when it overturns: no rows, events, peaks or forces) or ``overturns`` (whether it does).
     trust : bool
         Whether the run is followed by its companions, as ``rocking run`` does: ``run.trust`` then says how far it is determined. The run itself is the same.
-        Companions take 7 to 30 times as long as the run, up to 73 times where nine are too few, shared among all threads of the machine. With ``wanted="everything"`` alone.
+        Companions take 7 to 30 times as long as the run, up to 73 times where nine are too few. With ``wanted="everything"`` alone.
+    threads : int
+        Threads of the companions, 0 for as many as the machine has: 1 where each of many processes runs scenes of its own. A run itself takes one.
     **arguments
         As of :class:`Scene`.
 
@@ -83,7 +86,7 @@ def simulate(
     SolveError
         For a run that cannot go on, with the time.
     ValueError
-        For what cannot be ``wanted``, or ``wanted`` with ``trust``.
+        For what cannot be ``wanted``, or ``wanted`` with ``trust``; for a negative number of ``threads``, or more than 1024.
 
     >>> run = simulate(Column.prisms(1, half_width=0.4, half_height=1.6), theta=[0.1], t_end=2, output_dt=0.5)
     >>> run.t.tolist(), run.theta.shape, run.impacts
@@ -103,7 +106,7 @@ def simulate(
         # Rows at the usual interval are too many for the memory, and none are asked for.
         scene = _scene(base, motion, vertical, {**arguments, "output_dt": NO_ROWS})
     flags = {name: flag(name, value) for name, value in (("rows", rows), ("forces", forces), ("trust", trust))}
-    return Run(scene, scene._compiled.run(wanted=text("wanted", wanted), **flags))
+    return Run(scene, scene._compiled.run(wanted=text("wanted", wanted), threads=whole("threads", threads), **flags))
 
 
 def _scene(column: Scene | Column, motion: MotionLike | None, vertical: MotionLike | None, arguments: "SceneKeys") -> Scene:

@@ -455,6 +455,7 @@ class Study:
         confidence: float | None = None,
         seed: int | None = None,
         layout: str | None = None,
+        threads: int = 0,
     ) -> "Fragility":
         """The probability of a limit state given the level.
 
@@ -468,6 +469,8 @@ class Study:
         layout : str
             ``stripes``, where many records have each level, or ``cloud``, where each run has a level of its own; found from the number of runs per level
             unless given.
+        threads : int
+            Threads of the resampling, 0 for as many as the machine has; bands do not depend on it.
 
         Raises
         ------
@@ -494,7 +497,7 @@ class Study:
             options["confidence"] = number("confidence", options["confidence"])
         if options.get("layout") is not None:
             text("layout", options["layout"])
-        found, statements = _rocking.fragility(runs, state, **options)
+        found, statements = _rocking.fragility(runs, state, threads=whole("threads", threads), **options)
         return Fragility(json.loads(found), statements, self.measure, self.label)
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":

@@ -17,6 +17,9 @@ const JUMP_SHARE: f64 = 1e-9;
 /// states, small ones are lost in rounding.
 const APPROACH_SHARES: [f64; 3] = [1e-3, 1e-5, 1e-7];
 
+/// Most combinations of contacts that are tried for an impact with restitution: six contacts beside those that rebound.
+const MOST_REBOUNDS: usize = 729;
+
 impl Search<'_> {
     /// The states after a jam (Painlevé): velocities jump as in an impact, although nothing closes. Neither velocities that stay what they are nor the states
     /// `excluded` are an answer. `None` if none is found.
@@ -70,35 +73,80 @@ impl Search<'_> {
     }
 
     /// The impact after restitution at some interfaces, base first: each relative rate is multiplied by its factor, through an equal and opposite
-    /// moment impulse there (docs/book/model.md, sections 5 and 17). Contacts that rebound stick; the others stick or slide as their cones ask,
-    /// beginning with the plastic solution. `None` where restitution would raise the energy, or break a condition of contact.
+    /// moment impulse there (docs/book/model.md, sections 5 and 17). Contacts that rebound stick; the others stick or slide as their cones ask: from
+    /// the plastic solution on all change at once, or else, where that goes in circles, the lowest at a time, or else all combinations are tried. `None`
+    /// where restitution would raise the energy, or break a condition of contact.
     pub fn rebound(&self, plastic: &Solution, rebounding: &[(usize, f64)]) -> Option<Solution> {
         let target = |&(interface, factor): &(usize, f64)| {
             (interface, factor * relative(&plastic.answer.motion.omega, interface))
         };
         let targets: Vec<(usize, f64)> = rebounding.iter().map(target).collect();
-        let mut joints = plastic.joints.clone();
+        let mut first = plastic.joints.clone();
         for &(interface, _) in rebounding {
-            joints[interface] = self.with_slip(interface, joints[interface], Slip::Sticks);
+            first[interface] = self.with_slip(interface, first[interface], Slip::Sticks);
         }
+        let solution =
+            [usize::MAX, 1].into_iter().find_map(|at_once| self.rebound_from(first.clone(), &targets, at_once));
+        let (joints, answer) = solution.or_else(|| self.rebound_of_all(&first, &targets))?;
+        Some(Solution { joints, answer, is_ambiguous: plastic.is_ambiguous })
+    }
+
+    /// Contacts other than those that rebound whose cones or slides ask for other states than `joints`, with these states, base first.
+    fn others_asked(
+        &self,
+        joints: &[Joint],
+        answer: &Answer,
+        targets: &[(usize, f64)],
+    ) -> impl Iterator<Item = (usize, Joint)> {
+        (0..joints.len()).filter_map(|interface| {
+            let is_rebounding = targets.iter().any(|(own, _)| *own == interface);
+            let slip = self.wrong_slip(interface, joints[interface], answer, self.slack)?;
+            // Of a contact that pulls, both sides of the cone are violated, and neither names a slide.
+            (!is_rebounding && answer.contacts[interface].normal >= 0.0)
+                .then(|| (interface, self.with_slip(interface, joints[interface], slip)))
+        })
+    }
+
+    /// The impact with these relative rates in which every contact that does not rebound has the state that it asks for, sought from `joints` on; up to
+    /// `at_once` contacts change between two looks.
+    fn rebound_from(
+        &self,
+        mut joints: PerBlock<Joint>,
+        targets: &[(usize, f64)],
+        at_once: usize,
+    ) -> Option<(PerBlock<Joint>, Answer)> {
         // Each contact changes from sticking to a slide and back once; contacts that ask for more go in circles.
         for _ in 0..=2 * joints.len() {
-            let answer = self.with_relative_rates(&joints, &targets)?;
-            let other = |interface: usize| {
-                let is_rebounding = rebounding.iter().any(|(own, _)| *own == interface);
-                let slip = self.wrong_slip(interface, joints[interface], &answer, self.slack)?;
-                // Of a contact that pulls, both sides of the cone are violated, and neither names a slide.
-                (!is_rebounding && answer.contacts[interface].normal >= 0.0)
-                    .then(|| (interface, self.with_slip(interface, joints[interface], slip)))
-            };
-            let others: Vec<(usize, Joint)> = (0..joints.len()).filter_map(other).collect();
+            let answer = self.with_relative_rates(&joints, targets)?;
+            let others: Vec<(usize, Joint)> = self.others_asked(&joints, &answer, targets).take(at_once).collect();
             if others.is_empty() {
-                let is_ambiguous = plastic.is_ambiguous;
-                return self.may_rebound(&joints, &answer).then_some(Solution { joints, answer, is_ambiguous });
+                return self.may_rebound(&joints, &answer).then_some((joints, answer));
             }
             others.into_iter().for_each(|(interface, joint)| joints[interface] = joint);
         }
         None
+    }
+
+    /// Of all combinations of sticking and sliding contacts that do not rebound, up to [`MOST_REBOUNDS`], the admissible one with the least energy of the change.
+    fn rebound_of_all(&self, first: &[Joint], targets: &[(usize, f64)]) -> Option<(PerBlock<Joint>, Answer)> {
+        let is_other =
+            |interface: &usize| first[*interface].slip().is_some() && targets.iter().all(|(own, _)| own != interface);
+        let others: Vec<usize> = (0..first.len()).filter(is_other).collect();
+        let slips = [Slip::Sticks, Slip::Slides(-1), Slip::Slides(1)];
+        let count = u32::try_from(others.len()).ok().and_then(|count| slips.len().checked_pow(count));
+        let combinations = 0..count.filter(|count| *count <= MOST_REBOUNDS).unwrap_or(0);
+        let solutions = combinations.filter_map(|combination| {
+            let mut joints: PerBlock<Joint> = first.iter().copied().collect();
+            let mut rest = combination;
+            for &interface in &others {
+                joints[interface] = self.with_slip(interface, joints[interface], slips[rest % slips.len()]);
+                rest /= slips.len();
+            }
+            let answer = self.with_relative_rates(&joints, targets)?;
+            self.may_rebound(&joints, &answer).then_some((joints, answer))
+        });
+        let energy = |(_, answer): &(PerBlock<Joint>, Answer)| answer.change.energy(self.column);
+        solutions.min_by(|a, b| energy(a).total_cmp(&energy(b)))
     }
 
     /// The impact in which moment impulses at some interfaces, base first, give them these relative rates `[rad/s]`. `None` if no such impulses can.
