@@ -315,7 +315,9 @@ impl Response {
 
     /// Writes the files of the run.
     fn write(&self, py: Python<'_>, folder: PathBuf) -> PyResult<()> {
-        let written = py.detach(|| Folder::create(&folder)?.write(&self.run()));
+        let mut run = self.run();
+        run.outdated.extend(rocking_cli::figures_and_report());
+        let written = py.detach(|| Folder::create(&folder)?.write(&run));
         written.map_err(|failed| error::folder(py, &failed))
     }
 

@@ -449,6 +449,28 @@ fn a_slide_without_friction_ends_where_nothing_moves() {
     }
 }
 
+/// Joints without friction, blocks that move by rounding alone after the pulse: they stand. A block that is left with a speed goes on, and off its support.
+#[test]
+fn a_stack_without_friction_stands_where_nothing_moves() {
+    let upper = |friction: [f64; 2], motion: Motion| {
+        let mut scene = scene(vec![Block::rectangle(0.4, 0.5, 1000.0); 2], friction.to_vec());
+        scene.excitation.horizontal = Some(motion);
+        scene.options.t_end = 6.0;
+        let response = run(&scene);
+        (response.status, response.slides_on, response.may_overturn, response.truncated)
+    };
+    let sine = |amplitude: f64, omega| Motion::SinePulse { amplitude: amplitude * GRAVITY, omega, start: 0.0 };
+    for friction in [[0.5, 0.0], [0.0, 0.0]] {
+        assert_eq!(upper(friction, sine(0.3, 10.0)), (StopReason::EndOfTime, false, false, false), "{friction:?}");
+    }
+    let half = Motion::HalfSine { amplitude: 0.001 * GRAVITY, omega: 10.0, start: 0.0 };
+    let (status, slides_on, may_overturn, _) = upper([0.5, 0.0], half);
+    assert_eq!((status, slides_on, may_overturn), (StopReason::EndOfTime, true, false));
+    let half = Motion::HalfSine { amplitude: 0.1 * GRAVITY, omega: 20.0, start: 0.0 };
+    let (status, ..) = upper([0.5, 0.0], half);
+    assert_eq!(status, StopReason::Collapsed);
+}
+
 /// Newmark's block stops at `A t_1/μ` = 0.3 s. Its way in the last `τ` is `½ μ g τ²`: 98 µm in 0.01 s, which are to be seen, and 1e-10 m in 1e-5 s.
 #[test]
 fn a_slide_goes_on_as_long_as_its_way_is_visible() {

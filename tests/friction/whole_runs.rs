@@ -24,6 +24,40 @@ fn a_stack_that_does_not_stand_by_itself_is_past_its_balance() {
     assert_eq!(response.peaks(&scene.column)[1], f64::INFINITY);
 }
 
+/// A block that rocks and does not slide loses `½ I (ω⁻² - ω⁺²)` at each impact, and the ground that does not move does no work. Where only the outcome is wanted,
+/// energies are not computed.
+#[test]
+fn energies_close_where_friction_is_never_used_up() {
+    let (half_width, half_height, mass) = (0.25, 1.0, 1000.0);
+    let block = Block::with_mass(half_width, half_height, mass);
+    let mut scene = scene(vec![block], vec![0.5]);
+    scene.initial.theta = vec![0.05];
+    scene.options.t_end = 2.0;
+    scene.output_dt = Some(0.01);
+    let response = run(&scene);
+    let report = response.sliding.as_ref().expect("friction");
+    assert!(response.impacts > 3 && !report.is_any());
+    let about_corner = 4.0 / 3.0 * mass * (half_width * half_width + half_height * half_height);
+    let energy = |theta: f64, omega: f64| {
+        let height = half_width * theta.abs().sin() + half_height * theta.cos();
+        mass * GRAVITY * height + 0.5 * about_corner * omega * omega
+    };
+    let lost = |event: &Event| 0.5 * about_corner * (event.omega_before[0].powi(2) - event.omega_after[0].powi(2));
+    let lost: f64 = response.events.iter().map(lost).sum();
+    let last = response.samples.last().expect("rows");
+    let change = energy(last.theta[0], last.omega[0]) - energy(0.05, 0.0);
+    let rounding = 1e-9 * mass * GRAVITY * half_height;
+    for (found, expected) in
+        [(report.impact_losses, lost), (report.energy_change, change), (report.ground_work, lost + change)]
+    {
+        assert!((found - expected).abs() < rounding, "{found} J, {expected} J");
+    }
+    // Up to the error of the steps.
+    assert!(lost > 10.0 && report.ground_work.abs() < 1e-4 * lost, "{report:?}");
+    scene.options.wanted = Wanted::Outcome;
+    assert_eq!(run(&scene).sliding.expect("friction").impact_losses, 0.0);
+}
+
 fn random_scenes(count: usize) -> impl Iterator<Item = Scene> {
     let mut runner = common::runner(0);
     let block = (0.2f64..0.6, 0.3f64..1.0).prop_map(|(b, h)| Block::rectangle(b, h, 1.0));

@@ -39,6 +39,9 @@ pub fn report(folder: &Path, file: Option<&Path>) -> Result<(), Failure> {
             "this is a file, and a report is of a run: give the folder of the run; `rocking plot` draws tables".into();
         return Err(Failure::Input(folder.into(), problem));
     }
+    if !folder.exists() {
+        Results::read(folder)?;
+    }
     let file = file.map_or_else(|| folder.join(NAME), Path::to_path_buf);
     output::target(&file)?;
     let is_page = |end: &OsStr| ["html", "htm"].iter().any(|page| end.eq_ignore_ascii_case(page));

@@ -32,7 +32,7 @@ pub fn run(request: &Run) -> Result<(), Failure> {
     }
     output::check_folder(out)?;
     let folder = Folder::create(out)?;
-    let outdated = files_of_earlier_runs();
+    let outdated = figures_and_report();
     check_outputs(request, &template, &outdated)?;
     let bar = Progress::of_run(scene.options.t_end, request.quiet);
     let failed = |error| Failure::Solve { scene: path.clone(), out: out.clone(), error };
@@ -68,12 +68,6 @@ pub fn run(request: &Run) -> Result<(), Failure> {
         return Ok(());
     }
     print(&format!("wrote {} to {}\n", written.join(", "), shown(out)))
-}
-
-/// Names of figures and report: those of an earlier run in the same folder show another run.
-fn files_of_earlier_runs() -> Vec<String> {
-    let figures = NAMES.iter().flat_map(|name| ["svg", "png", "pdf"].map(|end| format!("{name}.{end}")));
-    figures.chain([report::NAME.into()]).collect()
 }
 
 /// Refuses outputs that cannot be written, or that are inputs of the scene. Files that are `outdated` are removed.

@@ -216,16 +216,16 @@ pub struct Initial {
     #[schemars(extend("x-unit" = "m", "x-default" = "0"))]
     pub slide: Option<Vec<f64>>,
     /// places of the centroids to the right, in the ground's frame; with friction
-    #[schemars(extend("x-unit" = "m", "x-default" = "as the blocks stand"))]
+    #[schemars(extend("x-unit" = "m", "x-default" = "as the blocks stand, without all four"))]
     pub x: Option<Vec<f64>>,
     /// heights of the centroids; with `x`
-    #[schemars(extend("x-unit" = "m", "x-default" = "as the blocks stand"))]
+    #[schemars(extend("x-unit" = "m", "x-default" = "as the blocks stand, without all four"))]
     pub y: Option<Vec<f64>>,
     /// velocities of the centroids to the right; with `x`
-    #[schemars(extend("x-unit" = "m/s", "x-default" = "as the blocks stand"))]
+    #[schemars(extend("x-unit" = "m/s", "x-default" = "as the blocks stand, without all four"))]
     pub vx: Option<Vec<f64>>,
     /// velocities of the centroids upwards; with `x`
-    #[schemars(extend("x-unit" = "m/s", "x-default" = "as the blocks stand"))]
+    #[schemars(extend("x-unit" = "m/s", "x-default" = "as the blocks stand, without all four"))]
     pub vy: Option<Vec<f64>>,
 }
 
@@ -234,7 +234,7 @@ pub struct Initial {
 #[schemars(deny_unknown_fields)]
 pub struct Solver {
     /// end of the run
-    #[schemars(range(min = 1e-9), extend("x-unit" = "s", "x-default" = "20/p, at least 10 s, after the ground motion"))]
+    #[schemars(range(min = 1e-9), extend("x-unit" = "s", "x-default" = "20/p, at least 10 s, after the ground motion, rounded up to a second"))]
     pub t_end: Option<f64>,
     /// method of the smooth phases
     #[schemars(extend("x-default" = "auto"))]

@@ -193,4 +193,8 @@ def sweep(
         raise ValueError(f"there is no table of {table!r}; give pandas or pyarrow")
     plan = Sweep(scene, axes, ask=ask, combine=combine, sampling=sampling)
     warn(plan.warnings)
-    return plan.table(threads=threads) if table == "pandas" else plan.to_arrow(threads=threads)
+    made = plan.table(threads=threads) if table == "pandas" else plan.to_arrow(threads=threads)
+    outcomes = made["outcome"].unique()
+    if list(map(str, outcomes)) == ["error"]:
+        warn([f"all {len(plan)} runs failed, the first one so: {made['error'][0]}"])
+    return made

@@ -40,9 +40,15 @@ pub fn may_overturn(
         return barrier(slides.to_vec()).is_none_or(|barrier| barrier.is_left(&now.theta));
     }
     let farther = |(interface, slide): (usize, &f64)| {
-        // The weight that stops the slide is taken for the normal force; a flight with this energy goes no farther than twice the share.
-        let share = above_rest / (column.mass_above(interface) * column.gravity());
-        let stopped = share / friction.kinetic[interface];
+        // The weight that stops the slide is taken for the normal force; a flight with this energy goes no farther than twice the share. Without friction a
+        // slide goes on, in as much time again as the run took, at the speed that this energy allows.
+        let mass = column.mass_above(interface);
+        let share = above_rest / (mass * column.gravity());
+        let fastest = (2.0 * above_rest.max(0.0) / mass).sqrt();
+        let stopped = match friction.kinetic[interface] {
+            0.0 => fastest * options.t_end,
+            coefficient => share / coefficient,
+        };
         match (interface, now.joints[interface].slip()) {
             (0, _) => *slide,
             (_, Some(slip)) if slip.sign() == 0.0 => *slide,

@@ -474,7 +474,7 @@ fn at_corner(impulse: Impulse, place: f64, turn: f64) -> Impulse {
 }
 
 /// Kinetic and potential energy relative to the moving ground `[J]`.
-fn energy(column: &Column, configuration: &Configuration) -> f64 {
+pub(super) fn energy(column: &Column, configuration: &Configuration) -> f64 {
     let chain = Chain::new(column, configuration);
     energy_of(&chain, &chain.motion(&Rates::of(configuration))).total()
 }

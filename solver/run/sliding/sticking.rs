@@ -2,12 +2,13 @@
 //!
 //! A run whose friction is never used up is one such part, and equals the run without friction to the last bit.
 
+use super::recorder::energy;
 use super::state::{Cause, RunEnd, SlidingEnded, SlidingState};
 use crate::column::Column;
 use crate::friction::contact_problem::Coefficients;
 use crate::friction::joint::Configuration;
 use crate::mechanics::kinematics::relative;
-use crate::response::{ContactTimes, Response, SlidingReport, StopReason};
+use crate::response::{ContactTimes, Event, Response, SlidingReport, StopReason};
 use crate::run::cones::Cones;
 use crate::run::error::SolveError;
 use crate::run::event_loop::{Departure, Exceeded, Leaving, event_loop};
@@ -129,10 +130,14 @@ impl<'p> Sticking<'p> {
         let cones = Cones::new(&self.scene.column, self.friction, self.scene.options.stick_angle);
         problem.records_gaps = cones.need_gaps();
         let is_beginning = from.is_none();
+        let column = &self.scene.column;
+        let of_state =
+            |state: &state::State| Configuration::sticking(column, &state.pattern, &state.theta, &state.omega);
         let departure = match from {
             Some(state) => Departure::Decided(state),
             None => Departure::Beginning(transition::initial(&problem)),
         };
+        let at_start = (is_beginning && self.problem.is_recorded()).then(|| of_state(departure.state()));
         let mut recorder = recorder::Recorder::new(&problem, departure.state(), rows);
         if !is_beginning || !self.problem.records_forces() {
             recorder = recorder.without_validity();
@@ -140,8 +145,10 @@ impl<'p> Sticking<'p> {
         let leaving = event_loop(&problem, modes, departure, &mut recorder, &cones, progress)?;
         let (last, ended, status) = match leaving {
             Leaving::Over(last, over) if is_beginning => {
+                let at_end = of_state(&last);
                 let response = recorder.finish(&problem, &last, over, modes);
-                return Ok(StickingSpan::Throughout(Box::new(reported(&self.scene.column, response))));
+                let ends = at_start.map(|at_start| [at_start, at_end]);
+                return Ok(StickingSpan::Throughout(Box::new(reported(column, response, ends))));
             }
             Leaving::Over(last, over) => {
                 let end = RunEnd::from(over);
@@ -153,15 +160,15 @@ impl<'p> Sticking<'p> {
                 (last, SlidingEnded::without_sliding(why, &closing), StopReason::EndOfTime)
             }
         };
-        let configuration = Configuration::sticking(&self.scene.column, &last.pattern, &last.theta, &last.omega);
-        let until = SlidingState { t: last.t, segment: last.segment, configuration };
+        let until = SlidingState { t: last.t, segment: last.segment, configuration: of_state(&last) };
         let response = recorder.so_far(&problem, &last, status, modes);
         Ok(StickingSpan::Part(Box::new(StickingPart { response, column: self.scene.column.clone(), until, ended })))
     }
 }
 
-/// The response of a run in which nothing slid, with the report of slides that a scene with friction asks for.
-fn reported(column: &Column, mut response: Response) -> Response {
+/// The response of a run in which nothing slid, with the report of slides that a scene with friction asks for. Works and losses are computed where the
+/// configurations at the start and at the end are given.
+fn reported(column: &Column, mut response: Response, ends: Option<[Configuration; 2]>) -> Response {
     let slides = column.slides().to_vec();
     let time = response.time_in_mode.values().sum();
     // They were recorded for the cones alone.
@@ -169,13 +176,26 @@ fn reported(column: &Column, mut response: Response) -> Response {
     for sample in &mut response.samples {
         (sample.slide, sample.gap) = (slides.clone(), vec![0.0; slides.len()]);
     }
-    response.sliding = Some(SlidingReport {
+    let mut report = SlidingReport {
         peak_slide: slides.iter().map(|slide| slide.abs()).collect(),
         residual_slide: slides.clone(),
         way_slid: vec![0.0; slides.len()],
         times: vec![ContactTimes { sticking: time, ..ContactTimes::default() }; slides.len()],
         flights: vec![0; slides.len()],
         ..SlidingReport::default()
-    });
+    };
+    if let Some(ends) = ends {
+        let [start, end] = ends.map(|configuration| energy(column, &configuration));
+        let lost = |event: &Event| {
+            let of = |pattern, omega| energy(column, &Configuration::sticking(column, pattern, &event.theta, omega));
+            of(&event.before, &event.omega_before) - of(&event.after, &event.omega_after)
+        };
+        report.impact_losses =
+            response.events.iter().filter(|event| event.omega_before != event.omega_after).map(lost).sum();
+        report.energy_change = end - start;
+        report.ground_work = report.impact_losses + report.energy_change;
+        report.ground_exchange = report.ground_work.abs();
+    }
+    response.sliding = Some(report);
     response
 }
