@@ -77,5 +77,5 @@ pub fn figures(results: &Results) -> Vec<Figure> {
 /// Names of the figures and the report of a run in its folder: those of an earlier run there show another run.
 pub fn figures_and_report() -> Vec<String> {
     let figures = plot::NAMES.iter().flat_map(|name| ["svg", "png", "pdf"].map(|end| format!("{name}.{end}")));
-    figures.chain([report::NAME.into()]).collect()
+    figures.chain([commands::report::NAME.into()]).collect()
 }

@@ -18,8 +18,8 @@ pub struct Decision {
     pub is_critical: bool,
     /// Restitution was left out (docs/book/model.md, section 5).
     pub is_without_restitution: bool,
-    /// Lost share of the kinetic energy before, 0 to 1. Zero where rates do not jump or `ImpactLaw::is_recorded` is false.
-    pub energy_lost: f64,
+    /// Kinetic energy before and after `[J]`. Zeros where rates do not jump or `ImpactLaw::is_recorded` is false.
+    pub kinetic: [f64; 2],
     /// Impulses at the interfaces on the stack above, base first `[N s]`, `[N m s]`: normal, tangential, moment about the
     /// contact's centre, restitution included, the end of low hops not. Empty where rates do not jump or `ImpactLaw::is_recorded` is false.
     pub impulses: PerBlock<ContactForce>,
@@ -36,9 +36,15 @@ impl Decision {
             separation: false,
             is_critical: false,
             is_without_restitution: false,
-            energy_lost: 0.0,
+            kinetic: [0.0; 2],
             impulses: PerBlock::new(),
             plastic_impulses: PerBlock::new(),
         }
+    }
+
+    /// Lost share of the kinetic energy before, 0 to 1.
+    pub fn share_lost(&self) -> f64 {
+        let [before, after] = self.kinetic;
+        if before > 0.0 { 1.0 - after / before } else { 0.0 }
     }
 }

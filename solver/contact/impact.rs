@@ -95,11 +95,11 @@ fn impact_at<S: Size>(
         posture.resultants(&change.linear, &change.angular)
     });
     candidate.answer = settle(at_event, mechanism, &mut rates, &free, ground, law.stick_angle)?;
-    let mut energy_lost = 0.0;
+    let mut kinetic = [0.0; 2];
     if law.is_recorded {
         let posture = &mechanism.posture;
         let after = at_event.velocities(posture, &rates);
-        energy_lost = share_lost(energy_before, posture.kinetic_energy(&after.linear, &after.angular));
+        kinetic = [energy_before, posture.kinetic_energy(&after.linear, &after.angular)];
     }
 
     let free = at_event.size.list_of(may_choose(at_event, &mechanism.states, &rates));
@@ -116,7 +116,7 @@ fn impact_at<S: Size>(
     Ok(Decision {
         separation: !is_impact_admissible || !is_motion_admissible,
         is_without_restitution,
-        energy_lost,
+        kinetic,
         plastic_impulses: match impulses.is_some() && rebounds {
             true => PerBlock::from_slice(&plastic.resultants),
             false => PerBlock::new(),
@@ -124,11 +124,6 @@ fn impact_at<S: Size>(
         impulses: impulses.map_or_else(PerBlock::new, |list| PerBlock::from_slice(&list)),
         ..Decision::without_impulses(pattern, omega)
     })
-}
-
-/// Lost share of the kinetic energy before, 0 to 1.
-fn share_lost(before: f64, after: f64) -> f64 {
-    if before > 0.0 { 1.0 - after / before } else { 0.0 }
 }
 
 /// The decision that these interfaces close, even if that pattern is not admissible: the projection onto it, recorded as a separation.
@@ -153,7 +148,7 @@ pub(crate) fn stick(
     let (pattern, omega) = (Pattern::from_states(&mechanism.states), PerBlock::from_slice(&answer.angular));
     Ok(Decision {
         separation: true,
-        energy_lost: share_lost(energy_before, energy_after),
+        kinetic: [energy_before, energy_after],
         impulses: PerBlock::from_slice(&answer.resultants),
         ..Decision::without_impulses(pattern, omega)
     })

@@ -106,7 +106,7 @@ mod tests {
         let law = ImpactLaw { kappa: &[1.0], stick_angle: 1e-9, is_recorded: true };
         let pattern = Pattern::from_signs(&[1]);
         let after = impact(&column, &pattern, &[0.0], &[-4e-5], &[0], GROUND, law).expect("solvable");
-        assert_eq!((after.pattern, after.energy_lost), (Pattern::rest(1), 1.0));
+        assert_eq!((after.pattern.clone(), after.share_lost()), (Pattern::rest(1), 1.0));
         let t: f64 = 0.25;
         assert!((after.impulses[0].friction_demand() - 3.0 * t / (4.0 + t * t)).abs() < 1e-14);
     }

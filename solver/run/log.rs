@@ -17,13 +17,15 @@ pub struct Log {
     pub impacts: usize,
     /// Impacts at which restitution was left out.
     pub without_restitution: usize,
+    /// Energy lost at impacts at which nothing slides `[J]`.
+    pub impact_losses: f64,
     pub extremes: Extremes,
 }
 
 impl Log {
     /// Nothing has happened yet.
     pub fn new(rows: Rows, extremes: Extremes) -> Log {
-        Log { rows, events: Vec::new(), impacts: 0, without_restitution: 0, extremes }
+        Log { rows, events: Vec::new(), impacts: 0, without_restitution: 0, impact_losses: 0.0, extremes }
     }
 
     pub fn push_event(&mut self, event: Event) {
@@ -35,7 +37,7 @@ impl Log {
 
     /// The response of a run that has ended at a time `[s]`, with what the log holds; all else is blank.
     pub fn into_response(self, status: StopReason, t_final: f64) -> Response {
-        let Log { rows, events, impacts, without_restitution, extremes } = self;
+        let Log { rows, events, impacts, without_restitution, extremes, .. } = self;
         Response {
             status,
             t_final,

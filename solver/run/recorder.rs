@@ -46,6 +46,7 @@ pub(crate) struct Mark {
     events: usize,
     impacts: usize,
     without_restitution: usize,
+    impact_losses: f64,
     separations: usize,
 }
 
@@ -78,13 +79,14 @@ impl Recorder {
 
     /// The present place in the record.
     pub fn mark(&self) -> Mark {
-        let Log { rows, events, impacts, without_restitution, extremes } = &self.log;
+        let Log { rows, events, impacts, without_restitution, impact_losses, extremes } = &self.log;
         Mark {
             rows: rows.mark(),
             extremes: extremes.clone(),
             events: events.len(),
             impacts: *impacts,
             without_restitution: *without_restitution,
+            impact_losses: *impact_losses,
             separations: self.separations.len(),
         }
     }
@@ -95,12 +97,18 @@ impl Recorder {
         self.log.events.truncate(mark.events);
         self.separations.truncate(mark.separations);
         (self.log.impacts, self.log.without_restitution) = (mark.impacts, mark.without_restitution);
+        self.log.impact_losses = mark.impact_losses;
         self.log.extremes = mark.extremes;
     }
 
     /// Largest sizes of gaps so far, per interface `[rad]`; empty unless they are recorded.
     pub fn largest_gaps(&self) -> &[f64] {
         &self.largest_gaps
+    }
+
+    /// Energy lost at impacts so far `[J]`; zero unless the run is recorded.
+    pub fn impact_losses(&self) -> f64 {
+        self.log.impact_losses
     }
 
     /// Largest friction demands of forces so far, per interface.
@@ -185,6 +193,8 @@ impl Recorder {
         if !problem.is_recorded() {
             return;
         }
+        let [kinetic_before, kinetic_after] = transition.decision.kinetic;
+        self.log.impact_losses += kinetic_before - kinetic_after;
         if problem.records_rows() {
             self.pattern.clone_from(&after.pattern);
         }
@@ -374,7 +384,7 @@ fn event(size: impl Size, before: &State, transition: &Transition, after: &State
         states_after: None,
         slide: PerBlock::new(),
         blocks: Vec::new(),
-        energy_lost: (transition.kind == EventKind::Impact).then_some(transition.decision.energy_lost),
+        energy_lost: (transition.kind == EventKind::Impact).then(|| transition.decision.share_lost()),
         impulses: if strikes { impulses() } else { PerBlock::new() },
     }
 }

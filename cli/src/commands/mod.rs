@@ -14,7 +14,7 @@ mod plot;
 mod probability;
 mod record;
 mod records;
-mod report;
+pub mod report;
 mod run;
 mod shell;
 mod spectrum;

@@ -5,6 +5,7 @@ use crate::commands::trust::Followed;
 use crate::commands::{inputs, plot, report};
 use crate::ending::Ending;
 use crate::error::Failure;
+use crate::figures_and_report;
 use crate::number::{counted, fixed};
 use crate::output;
 use crate::plot::modes::called;

@@ -8,7 +8,7 @@ use crate::column::Column;
 use crate::friction::contact_problem::Coefficients;
 use crate::friction::joint::Configuration;
 use crate::mechanics::kinematics::relative;
-use crate::response::{ContactTimes, Event, Response, SlidingReport, StopReason};
+use crate::response::{ContactTimes, Response, SlidingReport, StopReason};
 use crate::run::cones::Cones;
 use crate::run::error::SolveError;
 use crate::run::event_loop::{Departure, Exceeded, Leaving, event_loop};
@@ -145,10 +145,17 @@ impl<'p> Sticking<'p> {
         let leaving = event_loop(&problem, modes, departure, &mut recorder, &cones, progress)?;
         let (last, ended, status) = match leaving {
             Leaving::Over(last, over) if is_beginning => {
-                let at_end = of_state(&last);
-                let response = recorder.finish(&problem, &last, over, modes);
-                let ends = at_start.map(|at_start| [at_start, at_end]);
-                return Ok(StickingSpan::Throughout(Box::new(reported(column, response, ends))));
+                let lost = recorder.impact_losses();
+                let mut response = recorder.finish(&problem, &last, over, modes);
+                let mut report = without_slides(column, &mut response);
+                if let Some(at_start) = at_start {
+                    report.impact_losses = lost;
+                    report.energy_change = energy(column, &of_state(&last)) - energy(column, &at_start);
+                    report.ground_work = lost + report.energy_change;
+                    report.ground_exchange = report.ground_work.abs();
+                }
+                response.sliding = Some(report);
+                return Ok(StickingSpan::Throughout(Box::new(response)));
             }
             Leaving::Over(last, over) => {
                 let end = RunEnd::from(over);
@@ -166,9 +173,8 @@ impl<'p> Sticking<'p> {
     }
 }
 
-/// The response of a run in which nothing slid, with the report of slides that a scene with friction asks for. Works and losses are computed where the
-/// configurations at the start and at the end are given.
-fn reported(column: &Column, mut response: Response, ends: Option<[Configuration; 2]>) -> Response {
+/// The report of slides that a scene with friction asks for, of a run in which nothing slid; its rows are given their slides. Works and losses are left at zero.
+fn without_slides(column: &Column, response: &mut Response) -> SlidingReport {
     let slides = column.slides().to_vec();
     let time = response.time_in_mode.values().sum();
     // They were recorded for the cones alone.
@@ -176,26 +182,12 @@ fn reported(column: &Column, mut response: Response, ends: Option<[Configuration
     for sample in &mut response.samples {
         (sample.slide, sample.gap) = (slides.clone(), vec![0.0; slides.len()]);
     }
-    let mut report = SlidingReport {
+    SlidingReport {
         peak_slide: slides.iter().map(|slide| slide.abs()).collect(),
         residual_slide: slides.clone(),
         way_slid: vec![0.0; slides.len()],
         times: vec![ContactTimes { sticking: time, ..ContactTimes::default() }; slides.len()],
         flights: vec![0; slides.len()],
         ..SlidingReport::default()
-    };
-    if let Some(ends) = ends {
-        let [start, end] = ends.map(|configuration| energy(column, &configuration));
-        let lost = |event: &Event| {
-            let of = |pattern, omega| energy(column, &Configuration::sticking(column, pattern, &event.theta, omega));
-            of(&event.before, &event.omega_before) - of(&event.after, &event.omega_after)
-        };
-        report.impact_losses =
-            response.events.iter().filter(|event| event.omega_before != event.omega_after).map(lost).sum();
-        report.energy_change = end - start;
-        report.ground_work = report.impact_losses + report.energy_change;
-        report.ground_exchange = report.ground_work.abs();
     }
-    response.sliding = Some(report);
-    response
 }
