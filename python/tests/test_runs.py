@@ -78,6 +78,14 @@ def test_the_folder_of_a_run_is_that_of_the_command_line(scenes: Path, command, 
         assert (tmp_path / "python" / name).read_bytes() == (tmp_path / "command" / name).read_bytes()
 
 
+def test_a_folder_keeps_no_figures_of_an_earlier_run(tmp_path: Path) -> None:
+    """They show another run; other files stay."""
+    for name in ("report.html", "time-history.svg", "forces.png", "mine.svg"):
+        (tmp_path / name).write_text("earlier")
+    rk.simulate(rk.Column.prisms(1, half_width=0.4, half_height=1.6), theta=[0.1], t_end=2).write(tmp_path)
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["events.json", "mine.svg", "response.csv", "summary.json"]
+
+
 def test_a_folder_names_a_file_only_for_its_own_scene(tmp_path: Path) -> None:
     file = tmp_path / "base.toml"
     file.write_text("[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.6\n[excitation.horizontal]\nkind = \"sine-pulse\"\namplitude_uplift = 2\nomega_p = 5\n")

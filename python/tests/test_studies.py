@@ -508,6 +508,15 @@ def test_the_run_of_a_study_is_a_run(tmp_path: Path) -> None:
             use()
 
 
+def test_a_sweep_whose_runs_all_fail_warns_with_the_first_reason() -> None:
+    """The table of errors came without a word."""
+    scene = rk.Scene(COLUMN, rk.pulse("sine-pulse", amplitude=3.0, omega=5.0))
+    for table in ("pandas", "pyarrow"):
+        with pytest.warns(UserWarning, match=r"all 2 runs failed, the first one so: .*eta"):
+            failed = rk.sweep(scene, {"eta": [-0.5, -0.7]}, table=table)  # type: ignore[call-overload]
+        assert len(failed) == 2
+
+
 def test_whole_numbers_are_named_with_their_range() -> None:
     """They were `OverflowError: can't convert negative int to unsigned`."""
     ida = rk.Ida(COLUMN, rk.synthetic(range(2), duration=6.0), "pgv", [0.1, 0.4], trust=False)

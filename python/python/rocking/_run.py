@@ -383,7 +383,7 @@ class Run:
     def write(self, folder: str | os.PathLike[str]) -> None:
         """Writes the folder of the run: ``response.csv``, ``events.json`` and ``summary.json``, as ``rocking run`` does.
 
-        ``companions.csv`` as well where companions do not agree to the end.
+        ``companions.csv`` as well where companions do not agree to the end. Figures and report of an earlier run in the folder are removed.
 
         Raises
         ------
