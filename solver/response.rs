@@ -65,7 +65,7 @@ pub enum EventKind {
     Impact,
     /// The ground acceleration jumped and the pattern changed with it; with friction also where blocks began to slide ([`Event::states_after`]).
     Jump,
-    /// A sticking contact began to slide; only with friction, like all kinds below.
+    /// A sticking contact began to slide, or a sliding one turned round; only with friction, like all kinds below.
     Slip,
     /// A sliding contact came to rest.
     Stick,

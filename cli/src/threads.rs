@@ -10,7 +10,7 @@ const MOST_THREADS: i64 = 1024;
 /// How many threads a command may use.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Threads {
-    /// Threads; as many as the machine has unless given.
+    /// Threads of the rows of a table, of companions, of bands; as many as the machine has unless given.
     #[arg(long = "threads", value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
     count: Option<u16>,
 }

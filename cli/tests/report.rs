@@ -313,6 +313,10 @@ fn a_run_with_rows_at_given_times_has_its_figures_and_its_page() {
 fn a_folder_without_a_run_is_refused() {
     let folder = Folder::new();
     folder.refused("report .", &["summary.json", "rocking run"]);
+    // What is missing is the run, not a folder for the page.
+    for words in ["report nowhere", "report nowhere --out r.html"] {
+        folder.refused(words, &["nowhere/summary.json", "give the folder of a finished `rocking run`"]);
+    }
     assert!(!folder.has("report.html"));
 }
 

@@ -56,7 +56,10 @@ impl Signals {
 }
 
 /// A pool of threads, 0 for as many as the machine has.
-fn pool(threads: usize) -> PyResult<ThreadPool> {
+///
+/// # Errors
+/// `ValueError` for too many threads, `OSError` if there is no pool.
+pub fn pool(threads: usize) -> PyResult<ThreadPool> {
     if threads > MOST_THREADS {
         let problem = format!(
             "threads = {threads} is out of range; give at most {MOST_THREADS}, or 0 for as many as the machine has"
@@ -123,16 +126,16 @@ pub fn in_order<T: Send, W: FnMut(usize) -> T>(
     Ok(made)
 }
 
-/// What `work` returns, which may use so many threads, 0 for as many as the machine has. Its argument shows when a signal has ended it.
+/// What `work` returns, on the threads of a pool. Its argument shows when a signal has ended it.
 ///
 /// # Errors
-/// What a handler of signals raised. `ValueError` for too many threads, `OSError` if there is no pool.
-pub fn on_threads<T: Send>(py: Python<'_>, threads: usize, work: impl FnOnce(&Ended) -> T + Send) -> PyResult<T> {
-    let (pool, mut signals, ended) = (pool(threads)?, Signals::new(), Ended::default());
+/// What a handler of signals raised.
+pub fn on_pool<T: Send>(py: Python<'_>, pool: &ThreadPool, work: impl FnOnce(&Ended) -> T + Send) -> PyResult<T> {
+    let (mut signals, ended) = (Signals::new(), Ended::default());
     let done = py.detach(|| {
         std::thread::scope(|scope| {
             let (running, finished) = channel::<()>();
-            let (pool, ended) = (&pool, &ended);
+            let ended = &ended;
             let work = scope.spawn(move || {
                 // Dropped when the work ends, by a panic too: that ends the loop below.
                 let _running = running;

@@ -1,7 +1,7 @@
 //! Scenes, read from the keys of a scene file.
 
 use crate::error;
-use crate::interrupt::{Signals, on_threads};
+use crate::interrupt::{Signals, on_pool, pool};
 use crate::keys::to_toml;
 use crate::origin::Origin;
 use crate::record::{Record, intensity};
@@ -9,6 +9,7 @@ use crate::run::Response;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
+use rayon::ThreadPool;
 use rocking::trust::{Trust, TrustOptions, follow_run_observed};
 use rocking::{ContactAtRest, Motion, UnderPeak, Wanted, simulate_observed};
 use serde::{Deserialize, Serialize};
@@ -31,10 +32,9 @@ struct Pickled<S, O> {
 }
 
 /// Runs the companions of a run and returns what they say.
-fn follow(py: Python<'_>, scene: &rocking::Scene, response: &rocking::Response, threads: usize) -> PyResult<Trust> {
-    let followed = on_threads(py, threads, |ended| {
-        follow_run_observed(scene, response, TrustOptions::default(), |_| ended.progress())
-    })?;
+fn follow(py: Python<'_>, scene: &rocking::Scene, response: &rocking::Response, pool: &ThreadPool) -> PyResult<Trust> {
+    let followed =
+        on_pool(py, pool, |ended| follow_run_observed(scene, response, TrustOptions::default(), |_| ended.progress()))?;
     followed.map_err(|failed| error::solve(py, &failed))
 }
 
@@ -136,13 +136,14 @@ impl Scene {
             }
             Arc::new(scene)
         };
+        let companions = trust.then(|| pool(threads)).transpose()?;
         let mut signals = Signals::new();
         let start = Instant::now();
         let result = py.detach(|| simulate_observed(&scene, |_| signals.poll()));
         let seconds = start.elapsed().as_secs_f64();
         signals.finish()?;
         let response = result.map_err(|failed| error::solve(py, &failed))?;
-        let trust = trust.then(|| follow(py, &scene, &response, threads)).transpose()?;
+        let trust = companions.map(|pool| follow(py, &scene, &response, &pool)).transpose()?;
         Ok(Response { scene, origin: self.origin.clone(), response, trust, seconds })
     }
 

@@ -1,7 +1,7 @@
 //! Incremental dynamic analysis and fragility.
 
 use crate::error;
-use crate::interrupt::{in_order, on_threads};
+use crate::interrupt::{in_order, on_pool, pool};
 use crate::origin::Origin;
 use crate::record::{Record, intensity};
 use crate::scene::Scene;
@@ -292,7 +292,8 @@ pub fn fragility(
         })
     };
     options.layout = layout.map(named).transpose()?;
-    let found = on_threads(py, threads, |ended| Fragility::of_observed(&runs, state, &options, || ended.progress()))?;
+    let found =
+        on_pool(py, &pool(threads)?, |ended| Fragility::of_observed(&runs, state, &options, || ended.progress()))?;
     let found = found.expect("a resampling that no signal has ended has a result");
     Ok((serde_json::to_string(&found).map_err(error::unwritable)?, found.statements()))
 }

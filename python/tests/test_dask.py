@@ -136,11 +136,11 @@ def test_a_partition_takes_as_long_as_asked(monkeypatch: pytest.MonkeyPatch) -> 
         computed += stop - start
         return table(sweep, start, stop, **options)
 
-    # By a clock on which each row takes a millisecond.
+    # By a clock on which each row takes 1/1024 s, exactly.
     monkeypatch.setattr(rk.Sweep, "table", counted)
-    monkeypatch.setattr(rd.time, "process_time", lambda: 1e-3 * computed)
-    assert [rd.partition_size(SWEEP, seconds=seconds) for seconds in (1e-9, 0.5, 1e9)] == [1, 500, rd.MOST_ROWS]
-    assert rd.partition_size(SWEEP, seconds=0.5, threads=2) == 1000
+    monkeypatch.setattr(rd.time, "process_time", lambda: computed / 1024)
+    assert [rd.partition_size(SWEEP, seconds=seconds) for seconds in (1e-9, 0.5, 1e9)] == [1, 512, rd.MOST_ROWS]
+    assert rd.partition_size(SWEEP, seconds=0.5, threads=2) == 1024
     monkeypatch.undo()
     with pytest.raises(ValueError, match="at least one row"):
         rd.frame(SWEEP, partition_size=0)

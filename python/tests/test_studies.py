@@ -512,7 +512,7 @@ def test_a_sweep_whose_runs_all_fail_warns_with_the_first_reason() -> None:
     """The table of errors came without a word."""
     scene = rk.Scene(COLUMN, rk.pulse("sine-pulse", amplitude=3.0, omega=5.0))
     for table in ("pandas", "pyarrow"):
-        with pytest.warns(UserWarning, match=r"all 2 runs failed, the first one so: .*eta"):
+        with pytest.warns(UserWarning, match=r"all 2 runs failed; the first: .*eta"):
             failed = rk.sweep(scene, {"eta": [-0.5, -0.7]}, table=table)  # type: ignore[call-overload]
         assert len(failed) == 2
 

@@ -40,6 +40,7 @@ pub fn report(folder: &Path, file: Option<&Path>) -> Result<(), Failure> {
         return Err(Failure::Input(folder.into(), problem));
     }
     if !folder.exists() {
+        // Fails: what is missing is the run, not a place for the page.
         Results::read(folder)?;
     }
     let file = file.map_or_else(|| folder.join(NAME), Path::to_path_buf);

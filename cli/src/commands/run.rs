@@ -35,6 +35,7 @@ pub fn run(request: &Run) -> Result<(), Failure> {
     let folder = Folder::create(out)?;
     let outdated = figures_and_report();
     check_outputs(request, &template, &outdated)?;
+    let threads = request.threads.pool()?;
     let bar = Progress::of_run(scene.options.t_end, request.quiet);
     let failed = |error| Failure::Solve { scene: path.clone(), out: out.clone(), error };
     let start = Instant::now();
@@ -45,7 +46,6 @@ pub fn run(request: &Run) -> Result<(), Failure> {
     .map_err(failed)?;
     let seconds = start.elapsed().as_secs_f64();
     bar.finish();
-    let threads = request.threads.pool()?;
     let follow = || threads.install(|| Followed::of(request, &scene, &response, seconds));
     let followed = if request.quiet { follow() } else { working("companions of the run", follow) }.map_err(failed)?;
     let mut finished = Finished::new(&scene, &response);

@@ -216,16 +216,16 @@ pub struct Initial {
     #[schemars(extend("x-unit" = "m", "x-default" = "0"))]
     pub slide: Option<Vec<f64>>,
     /// places of the centroids to the right, in the ground's frame; with friction
-    #[schemars(extend("x-unit" = "m", "x-default" = "as the blocks stand, without all four"))]
+    #[schemars(extend("x-unit" = "m", "x-default" = "as the blocks stand, if none of the four is given"))]
     pub x: Option<Vec<f64>>,
     /// heights of the centroids; with `x`
-    #[schemars(extend("x-unit" = "m", "x-default" = "as the blocks stand, without all four"))]
+    #[schemars(extend("x-unit" = "m", "x-default" = "as the blocks stand, if none of the four is given"))]
     pub y: Option<Vec<f64>>,
     /// velocities of the centroids to the right; with `x`
-    #[schemars(extend("x-unit" = "m/s", "x-default" = "as the blocks stand, without all four"))]
+    #[schemars(extend("x-unit" = "m/s", "x-default" = "as the blocks stand, if none of the four is given"))]
     pub vx: Option<Vec<f64>>,
     /// velocities of the centroids upwards; with `x`
-    #[schemars(extend("x-unit" = "m/s", "x-default" = "as the blocks stand, without all four"))]
+    #[schemars(extend("x-unit" = "m/s", "x-default" = "as the blocks stand, if none of the four is given"))]
     pub vy: Option<Vec<f64>>,
 }
 

@@ -9,16 +9,14 @@ use super::numbers::number;
 enum Measure {
     /// Time from one sample to the next.
     Interval,
-    /// The same; any text may have the words, which a unit of time must follow: `intervals of 0.02 sec`.
-    IntervalWithUnit,
     /// Samples per second.
     Rate,
-    /// The same, for short: a sign of equality must follow.
-    RateWithSign,
+    /// The same, for short: a sign of equality must come before the number, and nothing but a unit of a rate behind it. `FS = 2 g` is a full scale.
+    ShortRate,
 }
 
 /// Names of the sampling interval and of its inverse, in lower case.
-const NAMES: [(&str, Measure); 40] = [
+const NAMES: [(&str, Measure); 42] = [
     ("dt", Measure::Interval),
     ("delta t", Measure::Interval),
     ("time step", Measure::Interval),
@@ -30,17 +28,19 @@ const NAMES: [(&str, Measure); 40] = [
     ("sampling period", Measure::Interval),
     ("sample period", Measure::Interval),
     ("sampling step", Measure::Interval),
-    ("sampling time", Measure::Interval),
     ("zeitschritt", Measure::Interval),
     ("abtastintervall", Measure::Interval),
     ("pas de temps", Measure::Interval),
     ("intervallo di campionamento", Measure::Interval),
     ("passo di campionamento", Measure::Interval),
     ("intervalo de muestreo", Measure::Interval),
-    ("intervals of", Measure::IntervalWithUnit),
-    ("interval of", Measure::IntervalWithUnit),
+    ("equal intervals of", Measure::Interval),
+    ("spaced intervals of", Measure::Interval),
+    ("at intervals of", Measure::Interval),
     ("sampling rate", Measure::Rate),
+    ("samplingrate", Measure::Rate),
     ("sample rate", Measure::Rate),
+    ("samplerate", Measure::Rate),
     ("sampling frequency", Measure::Rate),
     ("sample frequency", Measure::Rate),
     ("sampling freq", Measure::Rate),
@@ -57,8 +57,8 @@ const NAMES: [(&str, Measure); 40] = [
     ("frecuencia de muestreo", Measure::Rate),
     ("tasa de muestreo", Measure::Rate),
     ("muestras por segundo", Measure::Rate),
-    ("sps", Measure::RateWithSign),
-    ("fs", Measure::RateWithSign),
+    ("sps", Measure::ShortRate),
+    ("fs", Measure::ShortRate),
 ];
 
 /// Units of a sampling rate, in lower case.
@@ -85,7 +85,7 @@ pub fn interval(line: &str) -> Option<f64> {
 }
 
 /// The sampling intervals that a line states `[s]`, in its order. Neither a fraction (`DT= 1/100`) nor an unknown unit gives one. From the second on, an interval
-/// has a sign of equality: `original dt = 0.005, resampled to dt = 0.01`.
+/// has a sign of equality, or its number stands before its name: `original dt = 0.005, resampled to dt = 0.01`.
 pub fn intervals(line: &str) -> Vec<f64> {
     if !line.contains(|c: char| c.is_ascii_digit()) {
         return Vec::new();
@@ -94,14 +94,19 @@ pub fn intervals(line: &str) -> Vec<f64> {
     let mut found = Vec::new();
     for (place, name, measure) in places(&line) {
         let before = line[..place].trim_end();
+        let clause = &before[before.rfind([',', ';']).map_or(0, |end| end + 1)..];
+        let is_of_others =
+            name != "dt" && clause.split(|c: char| !c.is_alphanumeric()).any(|word| OF_OTHER_SAMPLES.contains(&word));
         let last_word = before.rsplit(char::is_whitespace).next().unwrap_or("");
-        let is_of_others = name != "dt" && OF_OTHER_SAMPLES.contains(&last_word.trim_end_matches(':'));
         let is_in_list = last_word.trim_end_matches([',', ';', '/']).ends_with("npts");
-        let stated = match number(last_word).filter(|_| PER_SECOND.contains(&name)) {
+        let statement = Statement::read(&line[place + name.len()..]);
+        let has_sign = statement.as_ref().is_some_and(|stated| stated.has_sign);
+        let stated = match number(last_word).filter(|_| PER_SECOND.contains(&name) && !has_sign) {
             Some(rate) => Some(1.0 / rate),
-            None => Statement::read(&line[place + name.len()..])
-                .filter(|stated| stated.has_sign || found.is_empty() && measure != Measure::RateWithSign)
-                .and_then(|stated| stated.interval(measure)),
+            None if has_sign || found.is_empty() && measure != Measure::ShortRate => {
+                statement.and_then(|stated| stated.interval(measure))
+            }
+            None => None,
         };
         let is_sound = |interval: &f64| *interval > 0.0 && interval.is_finite();
         found.extend(stated.filter(|interval| is_sound(interval) && !is_of_others && !is_in_list));
@@ -125,11 +130,16 @@ fn spaced(line: &str) -> String {
         place.is_some_and(|place| lower.as_bytes().get(place).is_some_and(u8::is_ascii_alphabetic))
     };
     let is_hyphen = |place: usize| is_letter(place.checked_sub(1)) && is_letter(Some(place + 1));
-    let plain = |(place, c)| if c == '_' || c == '-' && is_hyphen(place) { ' ' } else { c };
+    let plain = |(place, c)| match c {
+        '_' => ' ',
+        '-' if is_hyphen(place) => ' ',
+        'É' => 'é',
+        other => other,
+    };
     lower.char_indices().map(plain).collect()
 }
 
-/// The names in a line, each with its place, from left to right.
+/// The names in a line, each with its place, from left to right; none begins inside another one.
 fn places(line: &str) -> Vec<(usize, &'static str, Measure)> {
     let is_word = |place: usize, name: &str| {
         !line[..place].ends_with(char::is_alphanumeric) && !line[place + name.len()..].starts_with(char::is_alphabetic)
@@ -142,7 +152,13 @@ fn places(line: &str) -> Vec<(usize, &'static str, Measure)> {
             .collect::<Vec<_>>()
     };
     let mut found: Vec<_> = NAMES.iter().flat_map(of_name).collect();
-    found.sort_by_key(|(place, ..)| *place);
+    found.sort_by_key(|(place, name, _)| (*place, usize::MAX - name.len()));
+    let mut end = 0;
+    found.retain(|(place, name, _)| {
+        let is_apart = *place >= end;
+        end = if is_apart { place + name.len() } else { end };
+        is_apart
+    });
     found
 }
 
@@ -175,6 +191,12 @@ impl Statement<'_> {
         let value = leading_number(number_on)?;
         let end = number_on.find(|c: char| c.is_whitespace() || ",;/".contains(c)).unwrap_or(number_on.len());
         let (word, behind) = number_on.split_at(end);
+        // A time of the clock, the first of a pair (`5.0 to 25.0 s`), and a number that a comma parts are no intervals.
+        let goes_on = ["to ", "-", "\u{2013}"].iter().any(|word| behind.trim_start().starts_with(word));
+        let has_comma = behind.strip_prefix(',').is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
+        if word.contains(':') || goes_on || has_comma {
+            return None;
+        }
         let touching = if number(word).is_some() { "" } else { word.trim_matches(|c: char| !c.is_alphabetic()) };
         let has_sign = rest.starts_with(['=', ':']);
         Some(Statement { has_sign, value, unit_before, touching, behind })
@@ -185,13 +207,18 @@ impl Statement<'_> {
         if self.touching.is_empty() && self.behind.starts_with('/') {
             return None;
         }
-        let is_rate = measure == Measure::Rate || measure == Measure::RateWithSign;
-        match self.unit() {
-            Unit::Time(second) => Some(self.value * second),
-            Unit::Rate => Some(1.0 / self.value).filter(|_| is_rate),
-            Unit::None if is_rate => Some(1.0 / self.value).filter(|_| self.value >= 1.0),
-            Unit::None => Some(self.value).filter(|_| measure == Measure::Interval),
-            Unit::Unknown => None,
+        let ends = || {
+            self.behind.trim_start().trim_start_matches([')', ']']).is_empty() || self.behind.starts_with([',', ';'])
+        };
+        match (measure, self.unit()) {
+            (_, Unit::Unknown) => None,
+            (Measure::ShortRate, Unit::Time(_)) => None,
+            (_, Unit::Time(second)) => Some(self.value * second),
+            (Measure::Interval, Unit::Rate) => None,
+            (Measure::Interval, Unit::None) => Some(self.value),
+            (_, Unit::Rate) => Some(1.0 / self.value),
+            (Measure::ShortRate, Unit::None) if !ends() => None,
+            (_, Unit::None) => Some(1.0 / self.value).filter(|_| self.value >= 1.0),
         }
     }
 
@@ -293,6 +320,26 @@ mod tests {
             ("Sampling interval (days): 1", None),
             ("offsets 5", None),
             ("number of samples/sec", None),
+            ("Original sampling rate: 200 samples per second", None),
+            ("Original sampling rate: 200 sps", None),
+            ("original sampling interval of 0.005 s", None),
+            ("Original data sampling rate: 200 Hz", None),
+            ("Sampling rate: 1,000 Hz", None),
+            ("Abtastrate: 62,5 Hz", None),
+            ("Pas de temps: 5,0 ms", None),
+            ("FS = 2 g", None),
+            ("FS: 4 V", None),
+            ("fs = 100, 3 channels", Some(0.01)),
+            ("Sampling time: 12:30:05", None),
+            ("Time interval: 5.0 to 25.0 s", None),
+            ("in an interval of 10.2 s (5-95 %)", None),
+            ("Channel 3 SPS: 100", Some(0.01)),
+            ("Number of samples: 4000 samples/sec: 200", Some(0.005)),
+            ("SampleRate(Hz): 200", Some(0.005)),
+            ("raw data, sampling rate: 100 Hz", Some(0.01)),
+            ("sampling interval of 0.02 s", Some(0.02)),
+            ("(dt=0.01)", Some(0.01)),
+            ("FRÉQUENCE D'éCHANTILLONNAGE: 100 Hz", Some(0.01)),
         ] {
             assert_eq!(interval(text), dt, "{text}");
         }

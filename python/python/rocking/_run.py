@@ -122,9 +122,12 @@ def trust(
     motion: MotionLike | None = None,
     *,
     vertical: MotionLike | None = None,
+    threads: int = 0,
     **arguments: "Unpack[SceneKeys]",
 ) -> Trust:
     """How far the run of a scene is determined: ``simulate(..., trust=True).trust``, of a run without rows.
+
+    ``threads`` is the number of threads of the companions, 0 for as many as the machine has.
 
     >>> found = trust(Column.prisms(1, half_width=0.4, half_height=1.6), theta=[0.1], t_end=2)
     >>> found.outcome, found.determined, len(found.companions)
@@ -132,7 +135,7 @@ def trust(
     """
     for name in {"rows", "forces", "wanted", "trust"} & set(arguments):
         raise TypeError(f"there is no argument `{name}` of rocking.trust: it has no rows and no forces; use rocking.simulate")
-    found = simulate(column, motion, vertical=vertical, rows=False, forces=False, trust=True, **arguments).trust
+    found = simulate(column, motion, vertical=vertical, rows=False, forces=False, trust=True, threads=threads, **arguments).trust
     assert found is not None
     return found
 

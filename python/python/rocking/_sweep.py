@@ -196,5 +196,5 @@ def sweep(
     made = plan.table(threads=threads) if table == "pandas" else plan.to_arrow(threads=threads)
     outcomes = made["outcome"].unique()
     if list(map(str, outcomes)) == ["error"]:
-        warn([f"all {len(plan)} runs failed, the first one so: {made['error'][0]}"])
+        warn([f"all {len(plan)} runs failed; the first: {made['error'][0]}"])
     return made

@@ -17,8 +17,8 @@ const JUMP_SHARE: f64 = 1e-9;
 /// states, small ones are lost in rounding.
 const APPROACH_SHARES: [f64; 3] = [1e-3, 1e-5, 1e-7];
 
-/// Most combinations of contacts that are tried for an impact with restitution: six contacts beside those that rebound.
-const MOST_REBOUNDS: usize = 729;
+/// Most combinations of contacts that are tried for an impact with restitution: five contacts beside those that rebound.
+const MOST_REBOUNDS: usize = 243;
 
 impl Search<'_> {
     /// The states after a jam (Painlevé): velocities jump as in an impact, although nothing closes. Neither velocities that stay what they are nor the states
@@ -74,7 +74,7 @@ impl Search<'_> {
 
     /// The impact after restitution at some interfaces, base first: each relative rate is multiplied by its factor, through an equal and opposite
     /// moment impulse there (docs/book/model.md, sections 5 and 17). Contacts that rebound stick; the others stick or slide as their cones ask: from
-    /// the plastic solution on all change at once, or else, where that goes in circles, the lowest at a time, or else all combinations are tried. `None`
+    /// the plastic solution on all change at once or, where that comes to no admissible impact, the lowest at a time; else all combinations are tried. `None`
     /// where restitution would raise the energy, or break a condition of contact.
     pub fn rebound(&self, plastic: &Solution, rebounding: &[(usize, f64)]) -> Option<Solution> {
         let target = |&(interface, factor): &(usize, f64)| {

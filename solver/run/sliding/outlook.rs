@@ -41,10 +41,11 @@ pub fn may_overturn(
     }
     let farther = |(interface, slide): (usize, &f64)| {
         // The weight that stops the slide is taken for the normal force; a flight with this energy goes no farther than twice the share. Without friction a
-        // slide goes on, in as much time again as the run took, at the speed that this energy allows.
+        // slide goes on, in as much time again as the run took, at the speed at which this energy parts the blocks above from those below.
         let mass = column.mass_above(interface);
+        let mass_below = column.mass_above(0) - mass;
         let share = above_rest / (mass * column.gravity());
-        let fastest = (2.0 * above_rest.max(0.0) / mass).sqrt();
+        let fastest = (2.0 * above_rest.max(0.0) * (1.0 / mass + 1.0 / mass_below)).sqrt();
         let stopped = match friction.kinetic[interface] {
             0.0 => fastest * options.t_end,
             coefficient => share / coefficient,
