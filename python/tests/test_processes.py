@@ -83,7 +83,7 @@ except KeyboardInterrupt:
     sys.exit(7)
 print("finished")
 """
-#: Each takes minutes or hours; companions, on one thread, take fifteen times the time of what they accompany.
+#: Each takes minutes or hours; companions of a run, on one thread, twelve times as long as the run (measured).
 CALLS = {
     "run": "rk.simulate(scene, method='rk4', step=1e-8)",
     "companions": "rk.simulate(short, method='rk4', step=5e-7, trust=True, threads=1)",

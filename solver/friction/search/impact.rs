@@ -128,6 +128,7 @@ impl Search<'_> {
     }
 
     /// Of all combinations of sticking and sliding contacts that do not rebound, up to [`MOST_REBOUNDS`], the admissible one with the least energy of the change.
+    /// That there are several is not reported as ambiguous: the plastic impact before decides that.
     fn rebound_of_all(&self, first: &[Joint], targets: &[(usize, f64)]) -> Option<(PerBlock<Joint>, Answer)> {
         let is_other =
             |interface: &usize| first[*interface].slip().is_some() && targets.iter().all(|(own, _)| own != interface);
