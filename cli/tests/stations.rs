@@ -156,6 +156,23 @@ fn an_axis_takes_the_records_of_a_folder_with_their_components() {
     assert_eq!(table.matches(said).count(), 2, "{table}");
 }
 
+/// Names that have the same number in them are those of different records.
+#[test]
+fn records_whose_numbers_are_equal_are_kept_apart() {
+    let folder = Folder::new();
+    let names = ["GM_1", "GM_01"];
+    for (place, name) in names.into_iter().enumerate() {
+        folder.write(&format!("r/{name}.csv"), format!("t [s],a [m/s2]\n0,0\n0.1,{}\n0.2,0\n", 1 + place));
+        let own =
+            scene(&folder, &format!("[excitation.station]\nrecord = \"r/{name}\"\n")).expect("a record of its own");
+        let Some(Motion::Record(record)) = own.excitation.horizontal else { panic!("{name}: no record") };
+        assert_eq!(record.peak(), 1.0 + place as f64, "{name}");
+    }
+    folder.write("base.toml", format!("{COLUMN}[excitation.station]\nrecord = \"r/GM_1\"\n"));
+    folder.write("sweep.toml", "scene = \"base.toml\"\n[axes]\nrecord = { folder = \"r\" }\n");
+    assert_eq!(Sweep::from_file(&folder.path("sweep.toml")).map(|sweep| sweep.len()), Ok(names.len()));
+}
+
 #[test]
 fn a_record_without_what_is_asked_for_is_refused_with_file_and_remedy() {
     let folder = folder();

@@ -97,12 +97,13 @@ pub(crate) fn files_in(folder: &Path) -> std::io::Result<Vec<String>> {
 
 /// Records of a folder in the order of the numbers in their names, each with the names of its files ([`files_in`]).
 pub(crate) fn records_of(folder: &Path) -> std::io::Result<Vec<(String, Vec<String>)>> {
-    let mut records: BTreeMap<_, (String, Vec<String>)> = BTreeMap::new();
+    let mut records: BTreeMap<_, Vec<String>> = BTreeMap::new();
     for file in files_in(folder)? {
         let record = record_and_component(&file).0.into_owned();
-        records.entry(by_number(&record)).or_insert_with(|| (record, Vec::new())).1.push(file);
+        // GM_1 and GM_01 have the same number and are two records.
+        records.entry((by_number(&record), record)).or_default().push(file);
     }
-    Ok(records.into_values().collect())
+    Ok(records.into_iter().map(|((_, record), files)| (record, files)).collect())
 }
 
 /// Folder and name of a record, `records/RSN1045`.
