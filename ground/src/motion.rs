@@ -103,6 +103,18 @@ impl Serialize for Description<'_> {
     }
 }
 
+/// What the acceleration of a motion is proportional to.
+enum Size<'m> {
+    /// `[m/s²]`
+    Amplitude(&'m mut f64),
+    /// The velocity of a pulse `[m/s]`; its product with `omega` `[rad/s]` is an acceleration.
+    Velocity { velocity: &'m mut f64, omega: f64 },
+    /// Each of the terms of a sum.
+    Terms(&'m mut Vec<Motion>),
+    /// The samples of a record.
+    Record(&'m mut Record),
+}
+
 impl Motion {
     /// The motion, to be serialised without the samples of its records.
     pub fn description(&self) -> Description<'_> {
@@ -181,6 +193,14 @@ impl Motion {
 
     /// The parameter `amplitude` `[m/s²]`. It is `None` for sums, records, and pulses that are scaled by `velocity`.
     pub fn amplitude_mut(&mut self) -> Option<&mut f64> {
+        match self.size_mut() {
+            Size::Amplitude(amplitude) => Some(amplitude),
+            Size::Velocity { .. } | Size::Terms(_) | Size::Record(_) => None,
+        }
+    }
+
+    /// What the acceleration is proportional to.
+    fn size_mut(&mut self) -> Size<'_> {
         match self {
             Motion::SinePulse { amplitude, .. }
             | Motion::CosinePulse { amplitude, .. }
@@ -191,10 +211,12 @@ impl Motion {
             | Motion::Ricker { amplitude, .. }
             | Motion::AntisymmetricRicker { amplitude, .. }
             | Motion::Rectangular { amplitude, .. }
-            | Motion::DoubleRectangular { amplitude, .. } => Some(amplitude),
-            Motion::MavroeidisPapageorgiou { .. } | Motion::Gabor { .. } | Motion::Sum { .. } | Motion::Record(_) => {
-                None
+            | Motion::DoubleRectangular { amplitude, .. } => Size::Amplitude(amplitude),
+            Motion::MavroeidisPapageorgiou { velocity, omega, .. } | Motion::Gabor { velocity, omega, .. } => {
+                Size::Velocity { velocity, omega: *omega }
             }
+            Motion::Sum { terms } => Size::Terms(terms),
+            Motion::Record(record) => Size::Record(record),
         }
     }
 
@@ -212,21 +234,17 @@ impl Motion {
     /// ```
     pub fn scaled(mut self, factor: f64) -> Result<Motion, RecordError> {
         finite_factor(factor)?;
-        match &mut self {
-            Motion::Record(record) => return record.clone().scaled(factor).map(Motion::Record),
-            Motion::Sum { terms } => {
+        match self.size_mut() {
+            Size::Amplitude(amplitude) => *amplitude = finite_product(*amplitude, factor)?,
+            Size::Velocity { velocity, omega } => {
+                finite_product(*velocity * omega, factor)?;
+                *velocity = finite_product(*velocity, factor)?;
+            }
+            Size::Terms(terms) => {
                 let scaled: Result<_, _> = terms.drain(..).map(|term| term.scaled(factor)).collect();
                 *terms = scaled?;
             }
-            Motion::MavroeidisPapageorgiou { velocity, omega, .. } | Motion::Gabor { velocity, omega, .. } => {
-                finite_product(*velocity * *omega, factor)?;
-                *velocity = finite_product(*velocity, factor)?;
-            }
-            motion => {
-                if let Some(amplitude) = motion.amplitude_mut() {
-                    *amplitude = finite_product(*amplitude, factor)?;
-                }
-            }
+            Size::Record(record) => *record = record.clone().scaled(factor)?,
         }
         Ok(self)
     }
