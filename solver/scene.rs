@@ -493,6 +493,12 @@ impl Scene {
         self.check_rows(faults);
     }
 
+    /// Largest number of rows that a run of the scene may have.
+    pub(crate) fn most_rows(&self) -> f64 {
+        let of_a_block = if self.friction.is_some() { MEMORY_WITH_FRICTION } else { 1.0 };
+        MOST_MEMORY / (of_a_block * self.column.len() as f64 + MEMORY_PER_ROW)
+    }
+
     fn check_rows(&self, faults: &mut Faults) {
         let (times, end) = (&self.output_times, self.options.t_end);
         let (key, remedy) = match self.output_dt {
@@ -503,9 +509,7 @@ impl Scene {
             faults.note("output.times", "`output.dt` is given as well".into(), "remove one of the two");
         }
         let rows = self.row_times().count();
-        let of_a_block = if self.friction.is_some() { MEMORY_WITH_FRICTION } else { 1.0 };
-        let of_a_row = of_a_block * self.column.len() as f64 + MEMORY_PER_ROW;
-        if end.is_finite() && rows * of_a_row > MOST_MEMORY {
+        if end.is_finite() && rows > self.most_rows() {
             faults.note(key, format!("{rows:.3e} rows up to t_end are too many for the memory"), remedy);
         }
         let is_within = |t: f64| (0.0..=row_times::last(end)).contains(&t);

@@ -89,7 +89,8 @@ pub struct IdaPoint {
 const LONGEST_ROW_INTERVAL: f64 = 0.01;
 /// Longest interval between these rows, as a share of `1/p`, dimensionless.
 const ROW_INTERVAL_OF_P: f64 = 0.02;
-/// Largest number of these rows. In long runs it makes the interval longer than the two bounds above.
+/// Largest number of these rows, and less where the rows of a long column would fill the memory. In long runs it makes the interval longer than the two bounds
+/// above.
 const MOST_ROWS: f64 = 20_000.0;
 
 /// Default time from the end of a record to the end of its run `[s]`.
@@ -269,7 +270,9 @@ impl Ida {
         // for `MOST_ROWS`.
         let longest = LONGEST_ROW_INTERVAL.min(ROW_INTERVAL_OF_P / scene.column.largest_frequency_parameter());
         let interval = horizontal.dt() / (horizontal.dt() / longest).ceil();
-        scene.set_rows(Some(interval.max(scene.options.t_end / MOST_ROWS)));
+        // One row stands at each end, and rounding may add another.
+        let most_intervals = MOST_ROWS.min(scene.most_rows() - 2.0);
+        scene.set_rows(Some(interval.max(scene.options.t_end / most_intervals)));
         Ok(scene)
     }
 }
@@ -298,6 +301,20 @@ mod tests {
             assert_eq!(study(name), Err(IdaError::NoUplift(measure)));
         }
         assert!(study("pga_g").is_ok());
+    }
+
+    /// With friction, rows of a hundred blocks take more memory than the interval between them was chosen for.
+    #[test]
+    fn scenes_of_long_columns_have_no_more_rows_than_fit() {
+        let column = Column::equal_blocks(100, 0.5, 2.5, 1.0, 9.81).expect("valid");
+        let scene = Scene { friction: Some(crate::Friction::uniform(0.7)), ..Scene::new(column) };
+        let record = Record::new(vec![1.0; 20_001], 0.01, 0.0).expect("valid");
+        let record = StudyRecord { name: "a".into(), horizontal: record, vertical: None };
+        let pga = Intensity::named("pga", None).expect("a measure");
+        let study = Ida::new(scene, vec![record], pga, vec![1.0]).expect("a study");
+        let scene = study.scene_of(0).expect("in range");
+        assert_eq!(scene.check(), Ok(()));
+        assert!(scene.row_times().count() > 10_000.0);
     }
 
     #[test]
