@@ -86,17 +86,6 @@ pub struct Answer {
     pub contacts: PerBlock<ContactForce>,
 }
 
-impl Answer {
-    /// No accelerations and no forces.
-    pub fn none(blocks: usize) -> Answer {
-        Answer {
-            motion: Rates::zero(blocks),
-            change: BlockMotion::default(),
-            contacts: PerBlock::filled(ContactForce::default(), blocks),
-        }
-    }
-}
-
 /// The rows of a configuration.
 #[derive(Debug)]
 pub struct Rows<'c, 'a> {

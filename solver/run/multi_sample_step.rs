@@ -167,12 +167,10 @@ impl Phase {
             let last = problem.ground[self.segment].end.min(until);
             let attempt = self.integrator.attempt(t, suggested, longest.min(last - t), problem.tolerance);
             suggested = attempt.suggested;
-            if !attempt.is_good() {
+            // A step that cannot be shorter is taken as it is: what reads the steps is to see the whole stretch.
+            if !attempt.is_good() && t + suggested > t {
                 self.work.rejected += 1;
                 longest = suggested;
-                if t + suggested <= t {
-                    return;
-                }
                 continue;
             }
             longest = f64::INFINITY;

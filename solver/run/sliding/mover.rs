@@ -48,7 +48,7 @@ impl<'p> Snapshots<'p> for Resting<'p> {
     fn snapshot(&mut self, t: f64, needs_forces: bool) -> &Snapshot<'p> {
         let snapshot = self.snapshot.insert(self.smooth.snapshot(self.smooth.base.clone()));
         if needs_forces {
-            self.smooth.answer(t, snapshot);
+            self.smooth.evaluate(t, snapshot);
         }
         snapshot
     }

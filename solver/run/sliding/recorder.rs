@@ -267,7 +267,7 @@ impl<'p> SlidingRecorder<'p> {
         let mut smooth = Smooth::new(self.problem, self.friction, &from);
         smooth.segment = segment;
         let mut snapshot = smooth.snapshot(from.configuration);
-        smooth.answer(t, &mut snapshot);
+        smooth.evaluate(t, &mut snapshot);
         snapshot
     }
 
@@ -424,13 +424,13 @@ impl<'p> SlidingRecorder<'p> {
         let mut snapshot = smooth.snapshot(end.configuration);
         // A run that ends at its start still has the row of its start.
         if self.log.rows.is_empty() && self.log.rows.next_time(self.problem) == Some(0.0) {
-            smooth.answer(end.t, &mut snapshot);
+            smooth.evaluate(end.t, &mut snapshot);
             self.row(end.t, &snapshot);
         }
         if !matches!(status, StopReason::Overturned | StopReason::Collapsed | StopReason::Undetermined) {
             while let Some(t) = self.log.rows.next_time(self.problem) {
                 (snapshot.answer, smooth.segment) = (None, self.log.rows.segment(self.problem, t));
-                smooth.answer(t, &mut snapshot);
+                smooth.evaluate(t, &mut snapshot);
                 self.row(t, &snapshot);
             }
         }

@@ -9,7 +9,7 @@ use crate::friction::guards::Guard;
 use crate::friction::joint::Configuration;
 use crate::friction::rows::{Answer, Coordinate, Rows, coordinates, with_accelerations};
 use crate::friction::search::acceleration_scale;
-use crate::mechanics::dynamics::Ground;
+use crate::mechanics::dynamics::{ContactForce, Ground};
 use crate::numerics::ode::explicit::System;
 use crate::numerics::per_block::PerBlock;
 use crate::run::error::SolveError;
@@ -112,13 +112,11 @@ impl<'p> Smooth<'p> {
         Snapshot { column: self.column, configuration, chain: OnceCell::new(), answer: None }
     }
 
-    /// Accelerations and forces of a snapshot at a time `[s]`, evaluated unless they are known; [`Answer::none`] if the rows do not determine them.
-    pub fn answer<'m>(&mut self, t: f64, snapshot: &'m mut Snapshot<'p>) -> &'m Answer {
-        let blocks = self.column.len();
+    /// Evaluates the accelerations and forces of a snapshot at a time `[s]`, unless they are known. It has none if the rows do not determine them.
+    pub fn evaluate(&mut self, t: f64, snapshot: &mut Snapshot<'p>) {
         if snapshot.answer.is_none() {
             snapshot.answer = self.solved(t, &snapshot.configuration, snapshot.chain());
         }
-        snapshot.answer.get_or_insert_with(|| Answer::none(blocks))
     }
 
     /// Whether the determinant of the rows has the sign that it had where these states began. Where it changes, forces are infinite on the way (Painlevé).
@@ -151,15 +149,16 @@ impl<'p> Smooth<'p> {
     /// Why no step can be taken from a state at a time `[s]`; `step` is the last one that was tried `[s]`.
     ///
     /// # Errors
-    /// [`SolveError::StepTooSmall`], unless the motion jams: the normal force at some interface exceeds [`FACTOR_WITHOUT_STEP`] times the forces at work
-    /// on the stack above (Painlevé).
+    /// [`SolveError::StepTooSmall`], unless the motion jams: the rows determine no forces, or the normal force at some interface exceeds
+    /// [`FACTOR_WITHOUT_STEP`] times the forces at work on the stack above (Painlevé).
     pub fn without_step(&mut self, t: f64, x: &[f64], step: f64) -> Result<SlidingEnded, SolveError> {
         let ground = Ground::at(self.segment, t, self.gravity);
         let mut snapshot = self.snapshot(self.configuration(x));
         let column = self.column;
         let most = FACTOR_WITHOUT_STEP * acceleration_scale(column, &snapshot.configuration, ground);
-        let mut contacts = self.answer(t, &mut snapshot).contacts.iter().enumerate();
-        if contacts.any(|(interface, own)| own.normal.abs() > most * column.mass_above(interface)) {
+        self.evaluate(t, &mut snapshot);
+        let exceeds = |(interface, own): (usize, &ContactForce)| own.normal.abs() > most * column.mass_above(interface);
+        if snapshot.answer.is_none_or(|answer| answer.contacts.iter().enumerate().any(exceeds)) {
             return Ok(SlidingEnded::at(Guard::Jam));
         }
         let mode = format!("{} with friction", self.base.pattern());

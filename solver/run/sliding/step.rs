@@ -103,7 +103,7 @@ impl<'s, 'p, O: Output> Step<'s, 'p, O> {
         let index = self.index_of(s);
         let snapshot = &mut self.snapshots[index];
         if needs_forces {
-            self.smooth.answer(self.t + s * self.h, snapshot);
+            self.smooth.evaluate(self.t + s * self.h, snapshot);
         }
         snapshot
     }
