@@ -200,6 +200,12 @@ fn quoted(text: &str) -> String {
     quoted + "\""
 }
 
+/// Keys that a new key of the same table replaces.
+#[pyfunction]
+pub fn replaced_by(name: &str) -> Vec<&'static str> {
+    rocking::scene_file::replaced_by(name).collect()
+}
+
 /// The dictionary of TOML text, in the order of the text: axes have one.
 #[pyfunction]
 pub fn from_toml<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyDict>> {

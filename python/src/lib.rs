@@ -16,6 +16,7 @@ mod sweep;
 mod table;
 
 use pyo3::prelude::*;
+use std::ffi::OsString;
 
 /// The compiled part of the package `rocking`.
 #[pymodule]
@@ -31,6 +32,7 @@ fn _rocking(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<study::Ida>()?;
     module.add_function(wrap_pyfunction!(keys::to_toml, module)?)?;
     module.add_function(wrap_pyfunction!(keys::from_toml, module)?)?;
+    module.add_function(wrap_pyfunction!(keys::replaced_by, module)?)?;
     module.add_function(wrap_pyfunction!(scene::scene_text, module)?)?;
     module.add_function(wrap_pyfunction!(run::page, module)?)?;
     module.add_function(wrap_pyfunction!(run::figures, module)?)?;
@@ -48,6 +50,6 @@ fn _rocking(module: &Bound<'_, PyModule>) -> PyResult<()> {
 
 /// The command line with these arguments, the name of the program first; the exit status.
 #[pyfunction]
-fn command_line(py: Python<'_>, arguments: Vec<String>) -> u8 {
+fn command_line(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
     py.detach(|| rocking_cli::main_with(arguments))
 }

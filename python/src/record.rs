@@ -219,6 +219,7 @@ impl Record {
         py: Python<'py>,
         periods: PyReadonlyArray1<'_, f64>,
         damping: f64,
+        threads: usize,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let periods = periods.as_array().to_vec();
         if let Some(period) = periods.iter().find(|period| !(period.is_finite() && **period > 0.0)) {
@@ -229,8 +230,9 @@ impl Record {
                 "damping = {damping} is out of range; give a ratio from 0 to below 1"
             )));
         }
-        let values =
-            in_order(py, 0..periods.len(), 0, |_| |place| self.record.spectral_acceleration(periods[place], damping))?;
+        let values = in_order(py, 0..periods.len(), threads, |_| {
+            |place| self.record.spectral_acceleration(periods[place], damping)
+        })?;
         Ok(values.into_pyarray(py))
     }
 

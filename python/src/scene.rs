@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use rayon::ThreadPool;
 use rocking::trust::{Trust, TrustOptions, follow_run_observed};
-use rocking::{ContactAtRest, Motion, UnderPeak, Wanted, simulate_observed};
+use rocking::{ContactAtRest, UnderPeak, Wanted, simulate_observed};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -79,22 +79,12 @@ impl Scene {
             }
         }
         let mut text = to_toml(keys)?;
-        let mut scene = rocking::Scene::from_toml(&text, &file).map_err(|refused| error::of_keys(py, refused))?;
-        if horizontal.is_some() || vertical.is_some() {
-            let motion = |record: &Record| Motion::Record(record.record.clone());
-            let excitation = &mut scene.excitation;
-            excitation.horizontal = horizontal.map(motion).or(excitation.horizontal.take());
-            excitation.vertical = vertical.map(motion).or(excitation.vertical.take());
-            // The end of a run that is not given follows from the ground motion, which the text does not have.
-            let solver = keys.get_item("solver")?.filter(|solver| !solver.is_none());
-            let end = solver.and_then(|solver| solver.get_item("t_end").ok()).filter(|end| !end.is_none());
-            if let Some(t_end) = scene.end_of_free_swing().filter(|_| end.is_none()) {
-                scene.options.t_end = t_end;
-            }
-            scene.check().map_err(|errors| error::faults(py, &file, &errors))?;
-            for (key, record) in [("horizontal", horizontal), ("vertical", vertical)] {
-                text.push_str(&record.map_or_else(String::new, |record| in_memory(key, record)));
-            }
+        let records = [horizontal, vertical];
+        let motions = records.map(|record| record.map(|record| record.record.clone()));
+        let scene = rocking::Scene::from_toml_with_records(&text, &file, motions);
+        let scene = scene.map_err(|refused| error::of_keys(py, refused))?;
+        for (key, record) in ["horizontal", "vertical"].into_iter().zip(records) {
+            text.push_str(&record.map_or_else(String::new, |record| in_memory(key, record)));
         }
         Ok(Scene { scene: Arc::new(scene), origin: Arc::new(Origin { file, text }) })
     }

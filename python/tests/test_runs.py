@@ -29,7 +29,8 @@ def test_a_run_has_the_bits_of_the_command_line(file: Path, command, tmp_path: P
     pd.testing.assert_frame_equal(run.to_pandas(), rows.drop(columns="pattern"), check_exact=True)
     shown = {1: "+", 0: "0", -1: "-"}
     assert ["(" + ",".join(shown[sign] for sign in row) + ")" for row in run.pattern.tolist()] == rows.pattern.tolist()
-    summary = json.loads((tmp_path / "summary.json").read_text())
+    # Words of the file are numbers of Python, which reads them so.
+    summary = json.loads((tmp_path / "summary.json").read_text().replace('"infinite"', "Infinity").replace('"-infinite"', "-Infinity"))
     # Hashes of the other files of the folder, which a run in memory has not.
     assert set(summary.pop("digests")) == {"response.csv", "events.json"}
     own = run.summary
@@ -158,6 +159,37 @@ def test_rows_at_given_times_are_those_of_an_interval(friction: float | None) ->
     # In any direction, one takes the place of the other.
     assert run.scene.replace(output_dt=0.01) == scene and pickle.loads(pickle.dumps(run)) == run
     assert rk.Scene.from_toml(run.scene.toml) == run.scene and run.figures()["time-history"]
+
+
+def test_what_contacts_ask_for_is_in_arrays() -> None:
+    column = rk.Column.prisms(3, half_width=0.4, half_height=1.56)
+    pulse = rk.pulse("sine-pulse", amplitude_g=0.75, omega=10.7)
+    run = rk.simulate(rk.Scene.load(SCENES / "paper-3-blocks-7.18.toml").replace(title="infinite"))
+    # A tensile contact asks for infinite friction: a word in the file, a number here.
+    assert run.summary["title"] == "infinite" and np.isinf(run.friction_demand).any() and "infinite" not in run.summary["friction_demand"]
+    assert run.friction_demand.tolist() == run.summary["friction_demand"] and run.impulse_friction_demand.shape == (3,)
+    assert (run.min_normal_force < 0).any()
+    slides = (run.peak_slide, run.residual_slide, run.way_slid)
+    assert all(slide.tolist() == [0.0, 0.0, 0.0] for slide in slides)
+    slid = rk.simulate(column, pulse, eta=0.9, friction=0.3)
+    assert (slid.peak_slide >= abs(slid.residual_slide)).all() and slid.way_slid.min() > 1e-3
+    displaced = rk.simulate(column, pulse, slide=[0.0, -0.05, 0.0])
+    assert displaced.residual_slide.tolist() == [0.0, -0.05, 0.0] and displaced.peak_slide.tolist() == [0.0, 0.05, 0.0]
+    assert not displaced.way_slid.any()
+    assert np.isnan(rk.simulate(column, pulse, forces=False).friction_demand).all()
+
+
+def test_rows_may_be_asked_for_up_to_the_end_that_follows_from_a_record() -> None:
+    column = rk.Column.prisms(1, half_width=0.4, half_height=1.6)
+    record = rk.Record.synthetic(1, duration=40)
+    run = rk.simulate(column, record, t_eval=np.arange(0, 40, 0.5))
+    assert run.scene.t_end > 40 and len(run.t) == 80
+    # The one fault is that of the mass, whatever the rows are.
+    with pytest.raises(rk.SceneError) as refused:
+        rk.simulate([{"half_width": 0.4, "half_height": 1.6, "mass": -1.0}], record, t_eval=np.arange(0, 40, 0.5))
+    assert "mass" in str(refused.value) and "times" not in str(refused.value)
+    with pytest.raises(rk.SceneError, match=r"output\.times.*the run lasts from 0 to"):
+        rk.simulate(column, record, t_eval=[0.0, 400.0])
 
 
 def test_rows_at_given_times_end_with_the_run() -> None:

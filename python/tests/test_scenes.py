@@ -444,6 +444,61 @@ def test_a_scene_is_of_the_folder_in_which_it_was_read(tmp_path: Path, monkeypat
     assert one == other
 
 
+def test_a_key_takes_the_place_of_those_of_which_a_scene_has_one():
+    """As an axis of a sweep: the mass of a block whose density was given, an amplitude in other units, a size of a record."""
+    drum = {"shape": "drum", "half_width": 0.4, "half_height": 0.5, "density": 2500.0}
+    scene = rk.Scene([drum, {**drum, "depth": 0.7, "shape": "prism"}], rk.pulse("sine-pulse", amplitude_g=0.3, omega=5.0), eta=0.9)
+    changed = scene.replace(keys={"block[2].mass": 900.0, "excitation.horizontal.amplitude": 2.0, "restitution.factors": [1.0, 1.0]})
+    assert changed.keys["block"][1]["mass"] == 900.0 and changed.keys["excitation"]["horizontal"]["amplitude"] == 2.0
+    assert not {"density", "depth"} & set(changed.keys["block"][1]) and "density" in changed.keys["block"][0]
+    assert "amplitude_g" not in changed.keys["excitation"]["horizontal"] and changed.keys["restitution"] == {"factors": [1.0, 1.0]}
+    # Two that are given are refused.
+    with pytest.raises(rk.SceneError):
+        scene.replace(keys={"block[2].half_height": 0.4, "block[2].height": 0.8})
+
+
+def test_files_are_written_whole_or_not_at_all(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    record, file = rk.Record([0.0, 3.0, 0.0], 0.02), tmp_path / "r.csv"
+    record.to_csv(file)
+    whole = file.read_text()
+    file.chmod(0o640)
+
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patched, pytest.raises(KeyboardInterrupt):
+        patched.setattr("rocking._files.os.replace", interrupted)
+        record.scaled(2.0).to_csv(file)
+    assert file.read_text() == whole and [path.name for path in tmp_path.iterdir()] == ["r.csv"]
+    record.scaled(2.0).to_csv(file)
+    assert file.read_text() != whole and file.stat().st_mode & 0o777 == 0o640
+    (tmp_path / "link.csv").symlink_to(file)
+    record.to_csv(tmp_path / "link.csv")
+    assert file.read_text() == whole and (tmp_path / "link.csv").is_symlink()
+    for place, refusal in ((tmp_path / "none" / "r.csv", FileNotFoundError), (tmp_path, IsADirectoryError)):
+        with pytest.raises(refusal) as refused:
+            record.to_csv(place)
+        assert refused.value.filename == str(place)
+    # A scene does not take the place of its record.
+    scene = rk.Scene(rk.Column.prisms(1, half_width=0.4, half_height=1.6), rk.Motion(kind="record", file=str(file)))
+    with pytest.raises(ValueError, match=r"reads the record .*r\.csv"):
+        scene.save(file)
+    assert file.read_text() == whole
+
+
+@pytest.mark.parametrize("files", [["r.csv"], "r.csv", {"folder": "."}, Path("r.csv")])
+def test_a_sweep_over_files_is_of_the_folder_in_which_it_was_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, files: Any) -> None:
+    for folder in ("a", "b"):
+        (tmp_path / folder).mkdir()
+    rk.Record([0.0, 3.0, 0.0, 0.0], 0.02).to_csv(tmp_path / "a" / "r.csv")
+    monkeypatch.chdir(tmp_path / "a")
+    column = rk.Column.prisms(1, half_width=0.4, half_height=1.6)
+    sweep = rk.Sweep(rk.Scene(column, rk.Motion(kind="record", file="r.csv")), {"excitation.horizontal.file": files})
+    monkeypatch.chdir(tmp_path / "b")
+    for own in (sweep, pickle.loads(pickle.dumps(sweep))):
+        assert own.table().outcome.tolist() == ["rocks"]
+
+
 def test_arguments_of_a_wrong_type_are_named():
     """NumPy and the compiled module named no argument, and read masked values, times and texts as numbers."""
     column, record = rk.Column.prisms(1, half_width=0.4, half_height=1.6), rk.Record.synthetic(1)

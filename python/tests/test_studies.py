@@ -211,12 +211,21 @@ def study(scenes: Path) -> rk.Study:
     return rk.ida(scene, records, "PGV", np.round(np.linspace(0.1, 1.5, 15), 12))
 
 
-def test_a_study_has_the_tables_of_the_command_line(statue: Path, study: rk.Study, scenes: Path) -> None:
+def test_a_study_has_the_tables_of_the_command_line(
+    statue: Path, study: rk.Study, scenes: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     expected = read(statue / "ida.csv")
     pd.testing.assert_frame_equal(as_read(study.table), expected, check_exact=True, check_dtype=False)
     stripes = read(statue / "ida-stripes.csv")
     pd.testing.assert_frame_equal(as_read(study.stripes), stripes, check_exact=True, check_dtype=False)
-    pd.testing.assert_frame_equal(rk.Study.load(scenes / "studies" / "statue-ida.toml").table, study.table)
+    file = scenes / "studies" / "statue-ida.toml"
+    pd.testing.assert_frame_equal(rk.Study.load(file).table, study.table)
+    # The study of a file in parts, as a cluster runs it.
+    plan = rk.Ida.load(file)
+    monkeypatch.chdir(tmp_path)
+    for own in (plan, pickle.loads(pickle.dumps(plan))):
+        assert len(own.records) * len(own.levels) == len(own) == len(study.table) and own.scene.title == rk.Scene.load(scenes / "studies" / "statue.toml").title
+        pd.testing.assert_frame_equal(own.table(10, 14), study.table.iloc[10:14])
 
 
 def test_fragilities_are_those_of_the_command_line(statue: Path, study: rk.Study) -> None:

@@ -89,13 +89,7 @@ impl Table {
         }
         let place = self.find(name);
         let entries = Arc::make_mut(&mut self.entries);
-        entries.retain(|entry| *entry.key != *name && !are_alternatives(&entry.key, name));
-        if !SPECTRAL.contains(&name) && are_alternatives(SPECTRAL[0], name) {
-            entries.retain(|entry| !OF_SPECTRAL.contains(&&*entry.key));
-        }
-        if name == "mass" {
-            entries.retain(|entry| *entry.key != *OF_DENSITY);
-        }
+        entries.retain(|entry| *entry.key != *name && !replaced_by(name).any(|other| *entry.key == *other));
         entries.push(Entry { key: name.into(), key_place: place.clone(), value_place: place, value });
     }
 
@@ -171,6 +165,21 @@ pub fn exclude_each_other(a: &str, b: &str) -> bool {
     table == other_table && name != other_name && are_alternatives(&name, &other_name)
         || is_short_form(a, &other_table)
         || is_short_form(b, &table)
+}
+
+/// Keys that a new key of the same table replaces: those of which a table takes one, and what is of use with these alone.
+///
+/// ```
+/// use rocking::scene_file::replaced_by;
+/// assert_eq!(replaced_by("mass").collect::<Vec<_>>(), ["density", "depth"]);
+/// assert_eq!(replaced_by("rtol").count(), 0);
+/// ```
+pub fn replaced_by(name: &str) -> impl Iterator<Item = &'static str> {
+    let groups = ALTERNATIVES.iter().filter(move |group| group.contains(&name)).flat_map(|group| *group);
+    let is_size = are_alternatives(SPECTRAL[0], name) && !SPECTRAL.contains(&name);
+    let of_spectral = OF_SPECTRAL.into_iter().filter(move |_| is_size);
+    let of_density = std::iter::once(OF_DENSITY).filter(move |_| name == "mass");
+    groups.copied().filter(move |other| *other != name).chain(of_spectral).chain(of_density)
 }
 
 fn are_alternatives(a: &str, b: &str) -> bool {

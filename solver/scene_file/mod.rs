@@ -15,6 +15,7 @@ pub(crate) mod table;
 mod template;
 
 pub use derived::Derived;
+pub use edit::replaced_by;
 pub use error::{SceneFileError, text};
 pub use file_kind::FileKind;
 pub use key_value::Setting;

@@ -12,6 +12,7 @@ use super::table::{Cause, Place, Table, Wrong};
 use crate::column::{Column, ColumnError};
 use crate::friction::Friction;
 use crate::scene::{Initial, LARGEST, Method, OutputColumn, Restitution, Scene, SceneErrors};
+use rocking_ground::{Excitation, Motion, Record};
 use std::path::Path;
 
 impl Scene {
@@ -36,6 +37,33 @@ impl Scene {
     /// ```
     pub fn from_toml(text: &str, file: &Path) -> Result<Scene, SceneFileError> {
         SceneFile::from_toml(text, file).map(|read| read.scene)
+    }
+
+    /// As [`Scene::from_toml`], with records in memory in the place of the horizontal and the vertical component of the ground motion, where they are given:
+    /// the end of a run that the text does not give follows from them.
+    ///
+    /// # Errors
+    /// [`SceneFileError`]
+    ///
+    /// ```
+    /// use rocking::{Scene, ground::Record};
+    /// let record = Record::new((0..2001).map(|i| 3.0 * (0.03 * f64::from(i)).sin()).collect(), 0.01, 0.0)?;
+    /// let text = "[column]\nblocks = 1\nhalf_width = 0.4\nhalf_height = 1.6\n";
+    /// let scene = Scene::from_toml_with_records(text, "shaken.toml".as_ref(), [Some(record), None])?;
+    /// assert!(scene.options.t_end >= 29.0); // 20 s of record, and a free swing
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn from_toml_with_records(
+        text: &str,
+        file: &Path,
+        [horizontal, vertical]: [Option<Record>; 2],
+    ) -> Result<Scene, SceneFileError> {
+        let reader = Reader { text, file, records: None, with_rows: true };
+        let put = |excitation: &mut Excitation| {
+            excitation.horizontal = horizontal.map(Motion::Record).or(excitation.horizontal.take());
+            excitation.vertical = vertical.map(Motion::Record).or(excitation.vertical.take());
+        };
+        reader.named(|| reader.read_with(Table::parse(text)?, put)).map(|read| read.scene)
     }
 }
 
@@ -76,9 +104,14 @@ impl Reader<'_> {
     }
 
     /// Reads the whole file and checks its scene.
-    pub fn read(&self, mut root: Table) -> Result<SceneFile, Fault> {
+    pub fn read(&self, root: Table) -> Result<SceneFile, Fault> {
+        self.read_with(root, |_| {})
+    }
+
+    /// As [`Reader::read`]; `put` may replace components of the ground motion.
+    fn read_with(&self, mut root: Table, put: impl FnOnce(&mut Excitation)) -> Result<SceneFile, Fault> {
         let mut derived = Vec::new();
-        let mut scene = self.scene(&mut root, &mut derived)?;
+        let mut scene = self.scene(&mut root, put, &mut derived)?;
         root.close()?;
         if !self.with_rows {
             scene.set_rows(None);
@@ -113,7 +146,12 @@ impl Reader<'_> {
         }
     }
 
-    fn scene(&self, root: &mut Table, derived: &mut Vec<Derived>) -> Result<Scene, Fault> {
+    fn scene(
+        &self,
+        root: &mut Table,
+        put: impl FnOnce(&mut Excitation),
+        derived: &mut Vec<Derived>,
+    ) -> Result<Scene, Fault> {
         let title = root.text("title")?.unwrap_or_default();
         let gravity = root.number("gravity")?.unwrap_or(crate::DEFAULT_GRAVITY);
         if gravity <= 0.0 {
@@ -129,6 +167,7 @@ impl Reader<'_> {
         scene.friction = friction(root)?;
         scene.restitution = restitution(root)?;
         scene.excitation = self.excitation(root, &scene.column)?;
+        put(&mut scene.excitation);
         if !solver(root, &mut scene)? {
             derived.push(end_of(&scene));
         }

@@ -14,6 +14,7 @@ import numpy.typing as npt
 from . import _rocking
 from ._arguments import flag, number, numbers, optional, path_text, text, whole
 from ._errors import MissingFileError, SceneError
+from ._files import write_text
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -324,7 +325,7 @@ class Record:
         """
         return {name: np.nan if value is None else value for name, value in self._record.measures(number("gravity", gravity)).items()}
 
-    def spectrum(self, periods: npt.ArrayLike, damping: float = 0.05) -> Array:
+    def spectrum(self, periods: npt.ArrayLike, damping: float = 0.05, *, threads: int = 0) -> Array:
         """Pseudo-spectral accelerations [m/s²] at periods [s], of the shape of the periods; exact for linear samples (Nigam & Jennings 1969).
 
         Parameters
@@ -333,14 +334,17 @@ class Record:
             Above zero [s].
         damping : float
             Damping ratio, from 0 to below 1.
+        threads : int
+            Number of threads, 0 for as many as the machine has.
 
         Raises
         ------
         ValueError
-            For a period or a damping ratio out of range.
+            For a period or a damping ratio out of range, or more than 1024 threads.
         """
         wanted = numbers("periods", periods)
-        return self._record.spectrum(np.ascontiguousarray(wanted.ravel()), number("damping", damping)).reshape(wanted.shape)
+        values = self._record.spectrum(np.ascontiguousarray(wanted.ravel()), number("damping", damping), whole("threads", threads))
+        return values.reshape(wanted.shape)
 
     def to_csv(self, file: str | os.PathLike[str] | None = None) -> str | None:
         """Writes the record as a table of times from its first sample [s] and accelerations [m/s²]; returns the text where no file is given.
@@ -350,8 +354,7 @@ class Record:
         text = self._record.to_csv()
         if file is None:
             return text
-        with open(file, "w", encoding="utf-8") as out:
-            out.write(text)
+        write_text(path_text("file", file), text)
         return None
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import tempfile
 from collections.abc import Iterable, Mapping
@@ -17,6 +18,7 @@ import pandas as pd
 from . import _rocking
 from ._arguments import flag, path_text, text, whole
 from ._errors import SceneError
+from ._files import write_text
 from ._motion import MotionLike
 from ._record import Array, _fixed
 from ._scene import Column, Scene, SceneKeys
@@ -42,6 +44,22 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
     from typing_extensions import Unpack
+
+
+#: How JSON has numbers that are not finite.
+NOT_FINITE = {"infinite": math.inf, "-infinite": -math.inf, "not a number": math.nan}
+
+#: Keys of a summary whose values are texts of the user, whatever they say.
+TEXTS = ("title", "file", "text", "name")
+
+
+def _with_numbers(value: Any, key: str = "") -> Any:
+    """A part of a summary, with numbers in the place of :data:`NOT_FINITE`."""
+    if isinstance(value, dict):
+        return {name: _with_numbers(own, name) for name, own in value.items()}
+    if isinstance(value, list):
+        return [_with_numbers(own, key) for own in value]
+    return NOT_FINITE.get(value, value) if isinstance(value, str) and key not in TEXTS else value
 
 
 def simulate(
@@ -248,9 +266,50 @@ class Run:
 
     @property
     def summary(self) -> dict[str, Any]:
-        """The content of ``summary.json``, read anew each time; ``impacts`` is None where only the outcome is asked for."""
-        read: dict[str, Any] = json.loads(self._response.summary())
+        """The content of ``summary.json``, made anew each time. Numbers that are not finite, words in the file, are ``inf``, ``-inf`` and ``nan``;
+        ``impacts`` is None where only the outcome is asked for."""
+        read: dict[str, Any] = _with_numbers(json.loads(self._response.summary()))
         return {**read, "impacts": self._response.impacts}
+
+    @computed_once
+    def friction_demand(self) -> Array:
+        """Largest ratio of tangential to normal force at each interface, of the whole run, a fall included; infinite where a tangential force acted while the
+        contact did not press; NaN without ``forces``; shape (blocks,)."""
+        return self._of_each("friction_demand")
+
+    @computed_once
+    def impulse_friction_demand(self) -> Array:
+        """As :attr:`friction_demand`, of the impulses of impacts; shape (blocks,)."""
+        return self._of_each("impulse_friction_demand")
+
+    @computed_once
+    def min_normal_force(self) -> Array:
+        """Smallest normal force at each interface [N]; NaN without ``forces``; shape (blocks,)."""
+        return self._of_each("min_normal_force")
+
+    @computed_once
+    def peak_slide(self) -> Array:
+        """Largest size of the slide of each interface [m]; zero without friction; shape (blocks,)."""
+        return self._of_each("peak_slide", "sliding")
+
+    @computed_once
+    def residual_slide(self) -> Array:
+        """Slide of each interface at the end, that of the start included [m]; without friction that of the start; shape (blocks,)."""
+        return self._of_each("residual_slide", "sliding")
+
+    @computed_once
+    def way_slid(self) -> Array:
+        """Length of the way that each interface has slid, to and fro [m]; zero without friction; shape (blocks,)."""
+        return self._of_each("way_slid", "sliding")
+
+    def _of_each(self, name: str, table: str | None = None) -> Array:
+        """Numbers of the summary, one for each block or interface."""
+        summary = self.summary
+        if table is not None and summary.get(table) is None:
+            slides = np.array(summary["column"]["slides"], dtype=np.float64)
+            return _fixed(np.zeros_like(slides) if name == "way_slid" else np.abs(slides) if name == "peak_slide" else slides)
+        numbers = (summary if table is None else summary[table]).get(name)
+        return _fixed(np.full(len(summary["alpha"]), np.nan) if numbers is None else np.array(numbers, dtype=np.float64))
 
     @computed_once
     def trust(self) -> Trust | None:
@@ -405,8 +464,7 @@ class Run:
         with tempfile.TemporaryDirectory() as folder:
             self.write(folder)
             page = _rocking.page(folder)
-        with open(file, "w", encoding="utf-8") as out:
-            out.write(page)
+        write_text(path_text("file", file), page)
 
     def figures(self) -> dict[str, str]:
         """The figures of the page as SVG, by their names: ``time-history``, ``phase-portrait``, ``energy``, ``forces``, ``slides``.

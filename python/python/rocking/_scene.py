@@ -14,6 +14,7 @@ import pandas as pd
 from . import _rocking
 from ._arguments import number, path_text
 from ._errors import SceneError
+from ._files import write_text
 from ._keys import copied
 from ._motion import Motion, MotionLike, checked
 from ._record import Array, Record, StudyRecord
@@ -77,8 +78,8 @@ SETTINGS = ("initial", "solver", "output")
 #: Keys of a scene that are those of its column.
 OF_COLUMN = ("column", "block", "gravity", "size")
 
-#: Keys of which a scene has one.
-ALTERNATIVES = ({"restitution.law", "restitution.eta", "restitution.factors"}, {"output.dt", "output.times"})
+#: Keys of rows, of which a scene has one; other keys of which it has one: ``_rocking.replaced_by``.
+ROWS = ("output.dt", "output.times")
 
 
 class Sizes(TypedDict, total=False):
@@ -356,7 +357,7 @@ class Scene:
                 if any(records):
                     # Lines of errors are those of the whole text, in which each record takes as many as a record of two samples.
                     short = {name: motion._short_keys() if isinstance(motion, Record) else motion for name, motion in (motions or {}).items()}
-                    _rocking.Scene.from_keys({**keys, "excitation": short}, file, None, None)
+                    _rocking.Scene.from_keys({**keys, "excitation": short}, file, horizontal, vertical)
                 raise
         self._compiled = native
 
@@ -430,10 +431,10 @@ class Scene:
                 _put(keys, f"excitation.{name}", copied(checked(f"{name} motion", motion)))
         given = list(_dotted(arguments))
         # Those of the scene make room for those given; of two that are given the reader refuses one.
-        for group in ALTERNATIVES:
-            if any(key in group and value is not None for key, value in given):
-                for key in group:
-                    _put(keys, key, None)
+        for key, value in given:
+            if value is not None:
+                for other in _replaced_by(key):
+                    _put(keys, other, None)
         for key, value in given:
             _put(keys, key, copied(value))
         return Scene._of(keys, self._file)
@@ -507,15 +508,17 @@ class Scene:
         Raises
         ------
         ValueError
-            Where the scene names records relative to its own folder and the file is for another one: it would name other records.
+            Where the scene names records relative to its own folder and the file is for another one: it would name other records; and where the file is
+            a record of the scene.
         """
         path = path_text("file", file)
         own, new = os.path.dirname(os.path.abspath(self._file)), os.path.dirname(os.path.abspath(path))
         named = _relative_files(self.keys)
         if named and own != new:
             raise ValueError(f"the scene names {named[0]} relative to {own}; save it there, or name the record by its absolute path")
-        with open(path, "w", encoding="utf-8") as out:
-            out.write(self.toml)
+        if os.path.realpath(path) in (os.path.realpath(os.path.join(own, name)) for name in _files(self.keys.get("excitation"))):
+            raise ValueError(f"the scene reads the record {path}; give another name")
+        write_text(path, self.toml)
 
     def to_json(self) -> str:
         """The scene with all of its numbers in SI, as the solver has it."""
@@ -600,6 +603,14 @@ def _files(motion: Any) -> Iterable[str]:
     elif isinstance(motion, list):
         for item in motion:
             yield from _files(item)
+
+
+def _replaced_by(key: str) -> Iterable[str]:
+    """Dotted keys that a dotted key replaces: ``block[2].density`` and ``block[2].depth`` for ``block[2].mass``."""
+    if key in ROWS:
+        return ROWS
+    table, dot, name = key.rpartition(".")
+    return [table + dot + other for other in _rocking.replaced_by(name)]
 
 
 def _put(keys: dict[str, Any], key: str, value: Any) -> None:

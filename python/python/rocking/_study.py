@@ -82,24 +82,52 @@ class Ida(Plan):
             raise TypeError("levels are a dictionary; give a list or an array, such as numpy.linspace(0.1, 1.0, 10)")
         sizes = numbers("levels", levels).ravel().tolist()
         times = (optional("free_swing", free_swing), optional("sa_period", sa_period), optional("sa_damping", sa_damping))
-        self._source = (scene, found, text("measure", measure), sizes, *times, flag("trust", trust))
+        self._source: tuple[Any, ...] = (scene, found, text("measure", measure), sizes, *times, flag("trust", trust))
         self._become()
         warn(self.warnings)
 
+    @classmethod
+    def load(cls, file: str | os.PathLike[str]) -> "Ida":
+        """Reads a study file of ``rocking ida``, and runs nothing. Its ``[fragility]`` is that of the study that :meth:`run` returns.
+
+        Raises
+        ------
+        SceneError
+            For a study that is refused, with file, line, key and remedy; :class:`MissingFileError` where the file is not there.
+        """
+        path = os.path.abspath(path_text("file", file))
+        made = cls.__new__(cls)
+        # A process that runs a part reads the records again, and may have another folder.
+        made._source = (path, _rocking.scene_text(path))
+        made._become()
+        warn(made.warnings)
+        return made
+
     def _become(self) -> None:
-        scene, records, measure, levels, free_swing, sa_period, sa_damping, trust = self._source
-        natives = [record._native() for record in records]
-        self._ida = _rocking.Ida(scene._compiled, natives, measure, levels, free_swing, sa_period, sa_damping, trust)
+        if self._is_of_file():
+            path, text = self._source
+            self._ida = _rocking.Ida.from_toml(text, path)
+            scene = _rocking.from_toml(text)["scene"]
+            is_table = isinstance(scene, Mapping)
+            self._scene = Scene.from_dict(scene, file=path) if is_table else Scene.load(os.path.join(os.path.dirname(path), scene))
+            self._records = Records(map(StudyRecord._of, self._ida.records))
+        else:
+            self._scene, self._records, measure, levels, free_swing, sa_period, sa_damping, trust = self._source
+            natives = [record._native() for record in self._records]
+            self._ida = _rocking.Ida(self._scene._compiled, natives, measure, levels, free_swing, sa_period, sa_damping, trust)
+
+    def _is_of_file(self) -> bool:
+        return len(self._source) == 2
 
     @property
     def scene(self) -> Scene:
         """The base scene."""
-        return self._source[0]
+        return self._scene
 
     @property
     def records(self) -> Records:
         """The records."""
-        return self._source[1]
+        return self._records
 
     @property
     def measure(self) -> str:
@@ -124,7 +152,10 @@ class Ida(Plan):
 
     def run(self, *, threads: int = 0) -> "Study":
         """All runs."""
-        return Study(self.table(threads=threads), self.measure)
+        study = Study(self.table(threads=threads), self.measure)
+        if self._is_of_file():
+            study.states, study._options = self._ida.states, self._ida.options
+        return study
 
     def scene_of(self, index: int) -> Scene:
         """The scene of a run, without forces, with the rows that the base scene asks for, else with the samples of the record among them.
@@ -317,19 +348,15 @@ class Study:
 
     @classmethod
     def load(cls, file: str | os.PathLike[str], *, threads: int = 0) -> "Study":
-        """Runs a study file of ``rocking ida``. Its ``[fragility]`` gives ``states`` and what :meth:`fragility` takes unless given.
+        """Runs a study file of ``rocking ida``, as :meth:`Ida.run` of :meth:`Ida.load`. Its ``[fragility]`` gives ``states`` and what :meth:`fragility` takes
+        unless given.
 
         Raises
         ------
         SceneError
             For a study that is refused, with file, line, key and remedy; :class:`MissingFileError` where the file is not there.
         """
-        path = path_text("file", file)
-        native = _rocking.Ida.from_toml(_rocking.scene_text(path), path)
-        study = cls(frame(native.table(0, len(native), whole("threads", threads))), native.measure)
-        study.states, study._options = native.states, native.options
-        warn(native.warnings)
-        return study
+        return Ida.load(file).run(threads=threads)
 
     @property
     def label(self) -> str:

@@ -71,8 +71,7 @@ class Sweep(Plan):
         axes, sampling = copied(axes), copied(sampling)
         if is_label(scene.file):
             # As the records of the scene: those of the present folder.
-            files = {key for key, values in axes.items() if str(key).rsplit(".", 1)[-1] in FILE_KEYS and isinstance(values, (list, np.ndarray))}
-            axes = {key: list(map(absolute, values)) if key in files else values for key, values in axes.items()}
+            axes = {key: _absolute(values) if str(key).rsplit(".", 1)[-1] in FILE_KEYS else values for key, values in axes.items()}
         self._source: tuple[Any, ...] = (scene, axes, ask, combine, sampling)
         drawn = {} if sampling is None else {"sampling": sampling}
         text = _rocking.to_toml({"ask": ask, "combine": combine, **drawn, "axes": axes})
@@ -143,6 +142,13 @@ class Sweep(Plan):
         else:
             scene, axes, ask, combine, sampling = source
             self.__init__(scene, axes, ask=ask, combine=combine, sampling=sampling)  # type: ignore[misc]
+
+
+def _absolute(files: Any) -> Any:
+    """Values of an axis of files, with absolute paths: a file, a list of files, or ``{"folder": ..}``."""
+    if isinstance(files, Mapping):
+        return {key: absolute(value) if key == "folder" else value for key, value in files.items()}
+    return list(map(absolute, files)) if isinstance(files, (list, np.ndarray)) else absolute(files)
 
 
 @overload
