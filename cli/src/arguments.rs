@@ -56,14 +56,14 @@ pub enum Command {
     /// Run a scene and write summary.json, response.csv and events.json.
     ///
     /// Figures (time-history, phase-portrait, slides, energy and forces, .svg, .png and .pdf) and report.html of an earlier run in the folder are removed
-    /// first: they would show another run. Numbers in JSON that are not finite are the words "infinite", "-infinite" and "not a
+    /// when the new results are written: they would show another run. Numbers in JSON that are not finite are the words "infinite", "-infinite" and "not a
     /// number". Regular files are read up to a size: scenes, sweeps and their records up to 64 MiB, files of a run up to 1 GiB.
     Run(Run),
     /// Draw the figures of a run: time-history, phase-portrait, energy, forces, and slides where blocks slide; of the table of a sweep its spectrum, of a
     /// study its curves.
     Plot {
         /// Folder of a finished run, or the table of a sweep or a study (CSV or Parquet), whose figures have its name.
-        #[arg(value_name = "DIR")]
+        #[arg(value_name = "DIR|TABLE")]
         folder: PathBuf,
         /// How the figures are written: svg, to be scaled at will; png, in pixels; pdf, to be printed, in builds with `--features pdf`.
         #[arg(long, value_name = "FORMAT", value_parser = picture, default_value = "svg")]
@@ -253,7 +253,7 @@ pub struct Record {
     #[arg(long, value_name = "F", conflicts_with_all = ["pga_g", "scale_to"], value_parser = finite)]
     pub scale: Option<f64>,
     /// Scale to this peak, in g.
-    #[arg(long, alias = "pga", value_name = "G", value_parser = positive)]
+    #[arg(long, value_name = "G", value_parser = positive)]
     pub pga_g: Option<f64>,
     /// Scale to a size of any measure: pga, pga_g, pgv, pgd, arias, cav, `sa(PERIOD)`, `sa_g(PERIOD DAMPING)`; pga_uplift and pgv_uplift with --scene.
     #[arg(long, value_name = "MEASURE=SIZE", conflicts_with = "pga_g", value_parser = target)]
@@ -450,8 +450,11 @@ pub struct Fragility {
     pub plot: Option<PathBuf>,
     #[command(flatten)]
     pub threads: Threads,
+    /// Print nothing but errors.
+    #[arg(long, short)]
+    pub quiet: bool,
     /// Print JSON instead of text.
-    #[arg(long)]
+    #[arg(long, conflicts_with = "quiet")]
     pub json: bool,
 }
 

@@ -2,7 +2,7 @@
 
 use std::fs::File;
 use std::io::{BufWriter, Error, ErrorKind, Result, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
 /// Largest table of a sweep that is read, row by row [bytes].
@@ -10,7 +10,10 @@ pub const LARGEST_TABLE: u64 = 1 << 40;
 
 /// Refuses a folder, a device or a pipe, and a file of more than `largest` bytes. Does not open the file.
 pub fn check(path: &Path, largest: u64) -> Result<()> {
-    let found = std::fs::metadata(path)?;
+    let found = std::fs::metadata(path).map_err(|error| match error.kind() {
+        ErrorKind::NotFound => Error::new(ErrorKind::NotFound, "there is no such file; check the path"),
+        _ => error,
+    })?;
     let refused = |problem: String| Err(Error::new(ErrorKind::InvalidInput, problem));
     match found.len() {
         _ if found.is_dir() => refused("it is a folder".into()),
@@ -25,6 +28,13 @@ pub fn check(path: &Path, largest: u64) -> Result<()> {
 /// Folder of a file. A bare name has an empty parent path; its folder is `.`.
 pub fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// The path of `file` with a word added to the name: `a-word.svg` for `a.svg`.
+pub fn beside(file: &Path, word: &str) -> PathBuf {
+    let stem = file.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+    let extension = file.extension().map_or_else(String::new, |own| format!(".{}", own.to_string_lossy()));
+    file.with_file_name(format!("{stem}-{word}{extension}"))
 }
 
 /// An empty temporary file in `folder`, with the permissions of any new file. Errors do not have its name, which says nothing to users.

@@ -6,7 +6,7 @@ use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 
 /// Number of bytes by which a file is known as one that a command has written.
-const LONGEST_BEGINNING: u64 = 1000;
+const LONGEST_BEGINNING: u64 = 10_000;
 
 /// Writes a file that the user has named, or that belongs to a run.
 pub fn file(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Failure> {
@@ -25,9 +25,9 @@ pub fn csv(
     file(path, rows.into_inner().map_err(|error| at(Failure::File, path)(error.into_error()))?)
 }
 
-/// Removes what an earlier run has left beside its table, unless it is one of the inputs.
-pub fn remove(path: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
-    if inputs.iter().any(|input| are_same(input, path)) {
+/// Removes what an earlier run has left beside its table, unless it is one of the inputs, or no command has written it by its first line.
+pub fn remove(path: &Path, inputs: &[PathBuf], is_own: impl FnOnce(&str) -> bool) -> Result<(), Failure> {
+    if inputs.iter().any(|input| are_same(input, path)) || check_replaced(path, is_own).is_err() {
         return Ok(());
     }
     match std::fs::remove_file(path) {

@@ -453,7 +453,7 @@ fn negative_values_of_options_are_out_of_range() {
     let folder = Folder::with("scene.toml", SCENE);
     folder.write("a.csv", "t (s),a (m/s2)\n0,0\n0.01,1\n0.02,0\n");
     for (arguments, named) in [
-        ("record a.csv --pga -0.3", ["'-0.3'", "--pga"]),
+        ("record a.csv --pga-g -0.3", ["'-0.3'", "--pga-g"]),
         ("record a.csv --sa -1", ["'-1'", "--sa"]),
         ("plot out --width -5", ["'-5'", "--width"]),
         ("sweep scene.toml --threads -1", ["'-1'", "--threads"]),

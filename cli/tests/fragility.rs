@@ -172,6 +172,7 @@ fn rows_of_other_axes_are_kept_apart() {
     assert_eq!(folder.read("t-fragility.csv"), of_all);
     assert_eq!(folder.table("t-where-column.alpha=0.15-fragility.csv").texts("where"), ["column.alpha=0.15"]);
     assert!(folder.has("t-where-column.alpha=0.15-shares.csv"));
+    assert_eq!(folder.says("fragility t.csv --state overturned --quiet"), (String::new(), String::new()));
     let (runs, warning) = fitted("--where column.alpha=0.30");
     assert!(runs == 72 && warning.contains("6 run(s) end before their ground motion"), "{warning}");
     for (condition, word) in

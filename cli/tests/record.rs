@@ -60,7 +60,7 @@ fn the_measures_of_a_triangle_are_its_closed_forms() {
 fn a_record_is_trimmed_scaled_and_written_and_reads_back() {
     let folder = Folder::new();
     let file = fixture("csmip/three-channels.V2");
-    let cut = ["record", &file, "--channel", "3", "--trim", "0.1..0.3", "--pga", "0.5", "--out", "x.csv", "--json"];
+    let cut = ["record", &file, "--channel", "3", "--trim", "0.1..0.3", "--pga-g", "0.5", "--out", "x.csv", "--json"];
     let told = folder.answers(&cut);
     assert_eq!(told["samples"], 21);
     assert!((told["pga_g"].as_f64().expect("a number") - 0.5).abs() < 1e-12);
@@ -124,9 +124,9 @@ fn bad_input_is_refused_with_its_place() {
         folder.refused(&["record", &at2, "--trim", trim], &["--trim", trim, "2..8"]);
     }
     for pga in ["0", "-1", "nan", "inf", "x"] {
-        folder.refused(&["record", &at2, &format!("--pga={pga}")], &["--pga", "give a "]);
+        folder.refused(&["record", &at2, &format!("--pga-g={pga}")], &["--pga-g", "give a "]);
     }
-    folder.refused(&["record", &at2, "--pga", "1", "--scale", "2"], &["cannot be used with"]);
+    folder.refused(&["record", &at2, "--pga-g", "1", "--scale", "2"], &["cannot be used with"]);
     folder.refused(&["record", &at2, "--units", "knots"], &["knots", "choose g, mg, m/s2"]);
     folder.refused(&["record", &at2, "--out", "no/folder/x.csv"], &["x.csv", "choose a file"]);
     for name in ["x.parquet", "x.xlsx"] {

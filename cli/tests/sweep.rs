@@ -419,6 +419,29 @@ fn a_sweep_without_any_result_fails_with_the_first_reason() {
     assert_eq!(folder.names(""), ["base.toml", "sweep.csv", "sweep.toml"]);
 }
 
+/// Shards of errors make a table of errors; no picture of one says that nothing overturns.
+#[test]
+fn errors_alone_are_merged_with_a_failure_and_not_drawn() {
+    let folder = folder("scene = \"base.toml\"\n[axes]\neta = [1.5, 2.5]\n");
+    for shard in [1, 2] {
+        folder.fails(1, &format!("sweep sweep.toml --out {shard}.csv --shard {shard}/2"), &["none of the 1 point(s)"]);
+    }
+    folder.fails(1, "merge all.csv 1.csv 2.csv", &["all.csv: none of the 2 point(s)", "restitution.eta", "1.5"]);
+    assert_eq!(folder.read("all.csv").lines().count(), 3);
+    folder.refused("plot all.csv", &["all.csv: none of its 2 run(s) has a result"]);
+    folder.fails(1, "sweep sweep.toml --plot picture.svg", &["none of the 2 point(s)"]);
+    assert!(!folder.has("all.svg") && !folder.has("picture.svg"));
+    // Shards of which one has a result are merged, with the numbers of all.
+    folder.write("sweep.toml", "scene = \"base.toml\"\n[axes]\neta = [1.5, 0.9]\n");
+    folder.fails(1, "sweep sweep.toml --out 1.csv --shard 1/2", &["left as it was"]);
+    folder.remove("1.csv");
+    folder.fails(1, "sweep sweep.toml --out 1.csv --shard 1/2", &["none of the 1 point(s)"]);
+    folder.remove("2.csv");
+    folder.succeeds("sweep sweep.toml --out 2.csv --shard 2/2");
+    let told = folder.succeeds("merge all.csv 1.csv 2.csv --sweep sweep.toml");
+    assert!(told.contains("errors 1") && told.contains("wrote 2 row(s) of 2 table(s)"), "{told}");
+}
+
 /// The first point and the last one have faults of their own, which hide the unknown key.
 #[test]
 fn an_unknown_key_is_refused_whatever_else_is_wrong() {

@@ -2,7 +2,7 @@
 //!
 //! Warnings hold no values of their scene: thousands of scenes of a sweep give each of them once.
 
-use super::Scene;
+use super::{Scene, SolveOptions};
 use crate::column::{Block, Shape};
 use rocking_ground::Motion;
 use std::f64::consts::TAU;
@@ -39,6 +39,12 @@ pub(super) fn doubts(scene: &Scene) -> Vec<String> {
     if motions.any(is_turned_by_more_than_a_turn) {
         doubts
             .push("a phase of the ground motion is more than a turn, 2π rad; if it is in degrees, give radians".into());
+    }
+    let options = &scene.options;
+    if options.method.has_step_control() && options.step != SolveOptions::default().step {
+        doubts.push(
+            "`solver.step` changes nothing: it is for the method `rk4`, and other methods choose their steps".into(),
+        );
     }
     doubts
 }
@@ -81,7 +87,7 @@ fn is_turned_by_more_than_a_turn(motion: &Motion) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Column, Friction};
+    use crate::{Column, Friction, Method};
 
     fn of(blocks: Vec<Block>) -> Scene {
         Scene::new(Column::new(blocks, 9.81).expect("valid blocks"))
@@ -105,6 +111,9 @@ mod tests {
         assert!(said(&|scene| scene.excitation.horizontal = Some(sum.clone())).contains("more than a turn"));
         assert!(said(&|scene| scene.excitation.vertical = Some(harmonic(-TAU))).is_empty());
         assert!(said(&|scene| *scene = of(vec![Block::rectangle(20.0, 31.0, 1.0)])).contains("higher than 60 m"));
+        let step = |method| said(&|scene| (scene.options.step, scene.options.method) = (0.01, method));
+        assert!(step(Method::Auto).contains("`solver.step` changes nothing"), "{}", step(Method::Auto));
+        assert!(step(Method::RungeKutta4).is_empty());
     }
 
     #[test]

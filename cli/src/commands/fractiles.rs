@@ -1,15 +1,15 @@
 //! Fractiles of the largest |θ|/α over the records of a sweep: a row for each combination of the values of the other axes.
 
-use crate::commands::spectrum::beside;
 use crate::error::{Failure, at};
 use crate::output;
 use crate::plot::spectrum::LEAST_RECORDS;
+use crate::table::by_product::ByProduct;
 use crate::table::{Decided, decided};
 use crate::text::{printable, shown};
 use rocking::studies::{FRACTILES, fractile};
 use rocking::sweep::{Combine, Sweep, is_of_records};
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The runs at one combination of the axes that are not of records.
 #[derive(Clone, Debug, Default)]
@@ -20,13 +20,10 @@ struct Group {
     undecided: usize,
     /// Number of runs that are cut: their largest angles are those up to there.
     truncated: usize,
-    /// Largest `|θ|/α` of the runs that have an answer, infinite where the column is lost.
+    /// Number of runs whose column is lost.
+    lost: usize,
+    /// Largest `|θ|/α` of the runs that have an answer, infinite where the column is lost, and where it leans beyond its support as it stands.
     demands: Vec<f64>,
-}
-
-/// The table of fractiles beside that of a sweep.
-pub fn table(out: &Path) -> PathBuf {
-    beside(&out.with_extension("csv"), "fractiles")
 }
 
 /// Whether a sweep has fractiles: it asks for largest angles, and each combination of its other axes has at least [`LEAST_RECORDS`] records.
@@ -61,20 +58,22 @@ pub fn write(sweep: &Sweep, out: &Path) -> Result<String, Failure> {
         }
         let group = &mut groups[place];
         match fate {
-            Some(fate) if fate.is_lost() => group.demands.push(f64::INFINITY),
+            Some(fate) if fate.is_lost() => {
+                group.lost += 1;
+                group.demands.push(f64::INFINITY);
+            }
             Some(_) => group.demands.push(peaks.fold(0.0, f64::max)),
             None => group.undecided += 1,
         }
         group.truncated += usize::from(fate.is_some() && is_truncated);
     }
-    let path = table(out);
+    let path = ByProduct::Fractiles.of(out);
     let names = FRACTILES.map(|share| format!("peak_{:.0}", 100.0 * share));
     let keys = sweep.axes.iter().map(|axis| axis.key.clone()).filter(|key| !is_of_records(key));
     output::csv(&path, |rows| {
         rows.write_record(keys.chain(["runs", "lost", "undecided", "truncated"].map(String::from)).chain(names))?;
-        groups.iter().try_for_each(|Group { at, undecided, truncated, demands }| {
-            let lost = demands.iter().filter(|demand| demand.is_infinite()).count();
-            let counts = [demands.len(), lost, *undecided, *truncated].map(|count| count.to_string());
+        groups.iter().try_for_each(|Group { at, undecided, truncated, lost, demands }| {
+            let counts = [demands.len(), *lost, *undecided, *truncated].map(|count| count.to_string());
             let fractiles = FRACTILES.map(|share| match demands.is_empty() {
                 true => String::new(),
                 false => format!("{:?}", fractile(demands, share)),

@@ -2,14 +2,17 @@
 
 use crate::arguments;
 use crate::commands::plot::write;
-use crate::commands::spectrum::beside;
 use crate::error::Failure;
+use crate::files::beside;
+use crate::progress::working;
 use crate::table::Format;
+use crate::table::by_product::ByProduct;
 use crate::table::runs::{self, Runs};
 use crate::terminal::{json, print, warn};
 use crate::text::shown;
 use crate::{output, plot};
 use rocking::intensity::Intensity;
+use rocking::run_folder::Digest;
 use rocking::studies::{DEFAULT_STATES, Fit, Fragility, FragilityOptions, LimitState, Observation};
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -40,10 +43,14 @@ pub fn fragility(request: &arguments::Fragility) -> Result<(), Failure> {
     if Format::of_output(&out)? != Format::Csv {
         return Err(Failure::OnlyCsv(out));
     }
-    let outputs = [out.clone(), shares_beside(&out)].into_iter().chain(request.plot.clone());
+    let shares = shares_beside(&out);
+    let outputs = [out.clone(), shares.clone()].into_iter().chain(request.plot.clone());
     output::check(&outputs.collect::<Vec<_>>(), std::slice::from_ref(&request.table))?;
+    ByProduct::Curves.check_replaced(&out)?;
+    ByProduct::Shares.check_replaced(&shares)?;
     let threads = request.threads.pool()?;
-    let mut conclusions = threads.install(|| Conclusions::of(&runs, &measure, &states, &options));
+    let conclude = || threads.install(|| Conclusions::of(&runs, &measure, &states, &options));
+    let mut conclusions = if request.quiet { conclude() } else { working("curves and their bands", conclude) };
     conclusions.rows = rows;
     let mut report = conclusions.text();
     report.push_str(&conclusions.write_to(&out)?);
@@ -52,6 +59,9 @@ pub fn fragility(request: &arguments::Fragility) -> Result<(), Failure> {
         let figure = plot::fragility(&label, &conclusions.fragilities, &plot::Paper::default());
         write(&figure, picture)?;
         let _ = writeln!(report, "wrote {}: {}", shown(picture), figure.caption);
+    }
+    if request.quiet {
+        return Ok(());
     }
     warn(&warnings);
     if request.json { json(&conclusions) } else { print(&report) }
@@ -74,18 +84,18 @@ fn lacking(state: &LimitState, peaks: usize, has_slides: bool) -> Option<String>
     }
 }
 
-/// Paths of the two tables beside the table of a study: of fragility curves and of shares.
-pub fn tables(table: &Path) -> [PathBuf; 2] {
-    let curves = curves_of(table, &[]);
-    let shares = shares_beside(&curves);
-    [curves, shares]
-}
-
 /// Path of the fragility curves beside a table, of all rows or of those for which conditions hold. Curves of some rows do not take the place of those of
-/// others: `TABLE-where-size.alpha=0.2-fragility.csv`.
+/// others: `TABLE-where-size.alpha=0.2-fragility.csv`. Where a condition has characters that do not stand in every file name, its digest tells it from others.
 fn curves_of(table: &Path, conditions: &[String]) -> PathBuf {
     let in_name = |sign: char| if sign.is_alphanumeric() || "=._-".contains(sign) { sign } else { '_' };
-    let named = |condition: &String| format!("where-{}-", condition.chars().map(in_name).collect::<String>());
+    let named = |condition: &String| {
+        let name: String = condition.chars().map(in_name).collect();
+        if name == *condition {
+            format!("where-{name}-")
+        } else {
+            format!("where-{name}-{}-", &Digest::of(condition.as_bytes()).to_string()[..8])
+        }
+    };
     let kind: String = conditions.iter().map(named).chain(["fragility".to_string()]).collect();
     beside(&table.with_extension("csv"), &kind)
 }
@@ -135,7 +145,7 @@ impl Conclusions {
 
     /// Writes the tables of curves and of shares beside the `table` of a study. Returns the text that names both files.
     pub fn write(&self, table: &Path) -> Result<String, Failure> {
-        self.write_to(&tables(table)[0])
+        self.write_to(&ByProduct::Curves.of(table))
     }
 
     fn write_to(&self, curves: &Path) -> Result<String, Failure> {

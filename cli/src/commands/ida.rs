@@ -3,12 +3,14 @@
 //! The table grows as that of a sweep does (`table/growing.rs`): a study that was interrupted continues with the first missing row.
 
 use crate::arguments;
-use crate::commands::fragility::{self, Conclusions};
+use crate::commands::fragility::Conclusions;
 use crate::commands::plot::write;
-use crate::commands::spectrum::beside;
 use crate::error::{Failure, at};
+use crate::files::beside;
 use crate::output;
 use crate::plot::{self, Figure, Paper};
+use crate::progress::working;
+use crate::table::by_product::ByProduct;
 use crate::table::column::{Column, FAILURE, OUTCOME, Rows, fits, has_result, text};
 use crate::table::digest::TableDigest;
 use crate::table::making::Making;
@@ -33,14 +35,15 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     let out = &request.out;
     let format = Format::of_output(out)?;
     let IdaFile { ida, states, options, inputs, .. } = &IdaFile::from_file(&request.file).map_err(Failure::scene)?;
-    let stripes_file = beside(&out.with_extension("csv"), "stripes");
-    let [curves_file, shares_file] = fragility::tables(out);
-    let derived = [stripes_file.clone(), curves_file, shares_file];
+    let stripes_file = ByProduct::Stripes.of(out);
+    let by_products = [ByProduct::Stripes, ByProduct::Curves, ByProduct::Shares].map(|kind| (kind, kind.of(out)));
     let pictures = request.plot.as_ref().map(|picture| [picture.clone(), beside(picture, "fragility")]);
-    let outputs: Vec<PathBuf> = [out].into_iter().chain(&derived).chain(pictures.iter().flatten()).cloned().collect();
+    let derived = by_products.iter().map(|(_, file)| file);
+    let outputs: Vec<PathBuf> = [out].into_iter().chain(derived).chain(pictures.iter().flatten()).cloned().collect();
     output::check(&outputs, inputs)?;
     let target = output::target(out)?;
     check_replaced(&target)?;
+    by_products.iter().try_for_each(|(kind, file)| kind.check_replaced(file))?;
     let threads = request.threads.pool()?;
     if !request.quiet {
         warn_of_some(&ida.warnings());
@@ -54,7 +57,6 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
         points: 0..ida.len(),
         threads: &threads,
         shows_progress: !request.quiet && !request.json,
-        outdated: &derived,
         inputs,
     };
     let is_row = |row: &StringRecord, index: usize| is_row(ida, &columns, row, index);
@@ -70,10 +72,11 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     let stripes = stripes(&runs);
     output::csv(&stripes_file, |table| write_stripes(table, ida, &stripes))?;
     let measure = ida.intensity().to_string();
-    let conclusions = threads.install(|| Conclusions::of(&runs, &measure, states, options));
-    let mut report = tally(ida, &stripes) + &likely_in_words(table.tally.likely);
+    let conclude = || threads.install(|| Conclusions::of(&runs, &measure, states, options));
+    let conclusions = if request.quiet { conclude() } else { working("fragility curves and their bands", conclude) };
+    let mut report = tally(ida, &stripes) + &likely_in_words(table.counting.tally.likely);
     report.push_str(&conclusions.text());
-    let _ = writeln!(report, "wrote {} row(s){} to {}", table.rows, table.already_there(), shown(out));
+    let _ = writeln!(report, "wrote {} row(s){} to {}", table.counting.rows, table.already_there(), shown(out));
     let _ = writeln!(report, "wrote {}", shown(&stripes_file));
     report.push_str(&conclusions.write(out)?);
     if let Some([picture, curves]) = &pictures {
@@ -87,14 +90,14 @@ pub fn ida(request: &arguments::Ida) -> Result<(), Failure> {
     if request.json {
         json(&Summary {
             measure,
-            likely: table.tally.likely,
+            likely: table.counting.tally.likely,
             stripes: stripes.iter().map(Line::of).collect(),
             fragility: &conclusions.fragilities,
         })?;
     } else if !request.quiet {
         print(&report)?;
     }
-    table.failure(out, false).map_or(Ok(()), Err)
+    table.counting.failure(out, false).map_or(Ok(()), Err)
 }
 
 /// Draws the curves of a finished table into `picture`, and its fragility into a file beside `picture`. Limit states and bands are those of the table of
@@ -125,7 +128,7 @@ pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<Option<String
 
 /// Limit states and options of the table of fragility curves beside a table of runs; `None` if there is none.
 fn asked(table: &Path) -> Result<Option<(Vec<LimitState>, FragilityOptions)>, Failure> {
-    let [curves, _] = fragility::tables(table);
+    let curves = ByProduct::Curves.of(table);
     if !curves.exists() {
         return Ok(None);
     }

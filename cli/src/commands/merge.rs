@@ -3,15 +3,17 @@
 //! A table does not say how many points the sweep has. Missing points at the end are therefore noticed only if the sweep is given as
 //! well. Shards of different sweeps differ in their columns, or in the digests beside the tables.
 
-use crate::commands::sweep::{columns, digest, inputs_of, is_row};
+use crate::commands::sweep::{by_products, columns, digest, inputs_of, is_row};
 use crate::commands::{fractiles, probability};
 use crate::error::{Failure, at};
 use crate::files::{folder_of, put_in_place, temporary};
 use crate::output;
+use crate::table::by_product::{self, ByProduct};
 use crate::table::column::{Column, FAILURE, OUTCOME, Rows, has_result};
-use crate::table::digest::digest_file;
+use crate::table::digest::{digest_file, is_digest};
 #[cfg(feature = "parquet")]
 use crate::table::parquet;
+use crate::table::tally::Counting;
 use crate::table::{Format, check_replaced, open};
 use crate::terminal::print;
 use crate::text::shown;
@@ -30,11 +32,10 @@ pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(),
     let expected = sweep.map(ExpectedSweep::of).transpose()?;
     let mut inputs: Vec<PathBuf> = shards.iter().flat_map(|shard| [shard.clone(), digest_file(shard)]).collect();
     inputs.extend(expected.iter().flat_map(|expected| inputs_of(expected.file, &expected.sweep)));
-    let is_sampled = expected.as_ref().is_some_and(|expected| expected.sweep.samples().is_some());
-    let mut outputs: Vec<PathBuf> =
-        [out.into()].into_iter().chain(is_sampled.then(|| probability::table(out))).collect();
-    outputs.extend(expected.as_ref().filter(|expected| fractiles::has(&expected.sweep)).map(|_| fractiles::table(out)));
+    let by_products = expected.as_ref().map_or(Vec::new(), |expected| by_products(&expected.sweep));
+    let outputs: Vec<PathBuf> = [out.into()].into_iter().chain(by_products.iter().map(|kind| kind.of(out))).collect();
     output::check(&outputs, &inputs)?;
+    by_products.iter().try_for_each(|kind| kind.check_replaced(&kind.of(out)))?;
     let mut tables = Vec::new();
     for path in shards {
         if Format::of(path)? != format {
@@ -51,7 +52,7 @@ pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(),
     let target = output::target(out)?;
     check_replaced(&target)?;
     let merged = temporary(folder_of(&target)).map_err(failed)?;
-    let rows = match format {
+    let counting = match format {
         Format::Csv => join_csv(&tables, expected.as_ref(), merged.as_file(), failed)?,
         #[cfg(feature = "parquet")]
         Format::Parquet => join_parquet(&tables, expected.as_ref(), merged.as_file(), failed)?,
@@ -65,18 +66,17 @@ pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(),
         None => "--sweep FILE would tell whether points after them are missing".into(),
     };
     put_in_place(merged, &target).map_err(failed)?;
-    // Tables that belong to an earlier table of this name.
-    for by_product in [probability::table(out), fractiles::table(out)] {
-        output::remove(&by_product, &inputs)?;
-    }
-    let mut report = format!("wrote {rows} row(s) of {} table(s) to {}: {report}\n", tables.len(), shown(out));
+    by_product::remove(out, &inputs)?;
+    let Counting { tally, rows, .. } = &counting;
+    let mut report = format!("{tally}wrote {rows} row(s) of {} table(s) to {}: {report}\n", tables.len(), shown(out));
     if let Some(ExpectedSweep { sweep, .. }) = &expected {
         report.push_str(&probability::write(sweep, &probability::of(sweep, out)?, out)?);
-        if fractiles::has(sweep) {
+        if by_products.contains(&ByProduct::Fractiles) {
             report.push_str(&fractiles::write(sweep, out)?);
         }
     }
-    print(&report)
+    print(&report)?;
+    counting.failure(out, false).map_or(Ok(()), Err)
 }
 
 /// The sweep that the tables must make up.
@@ -102,9 +102,7 @@ fn check_digest(path: &Path, first: &Path, expected: Option<&ExpectedSweep>) -> 
             return Ok(None);
         }
         let text = read_file(&file).map_err(at(Failure::Input, &file))?;
-        let is_digest =
-            |text: &String| !text.trim().is_empty() && text.trim().bytes().all(|byte| byte.is_ascii_hexdigit());
-        let text = String::from_utf8(text).ok().filter(is_digest);
+        let text = String::from_utf8(text).ok().filter(|text| is_digest(text));
         let problem = "it is no digest of a sweep; run this shard again".to_string();
         text.map(Some).ok_or(Failure::Input(file, problem))
     };
@@ -128,15 +126,15 @@ fn first(path: &Path) -> Result<Option<u64>, Failure> {
     row.map(|row| index(&row, path)).transpose()
 }
 
-/// Passes the rows of tables to `write`, in order, and returns their number. The tables must have the same columns. Each row must have an outcome
+/// Passes the rows of tables to `write`, in order, and counts them. The tables must have the same columns. Each row must have an outcome
 /// or an error. Points must count up from zero without gap or repetition. If `expected` is given, the rows must be all rows of that sweep.
 fn join(
     tables: &[&Path],
     expected: Option<&ExpectedSweep>,
     mut write: impl FnMut(&StringRecord) -> Result<(), Failure>,
-) -> Result<usize, Failure> {
+) -> Result<Counting, Failure> {
     let mut header = expected.map(|expected| expected.columns.iter().map(|column| column.name.as_str()).collect());
-    let mut next = 0;
+    let mut counting: Option<Counting> = None;
     for path in tables {
         let Rows { header: found, rows } = open(path).map_err(broken(path))?;
         if *header.get_or_insert_with(|| found.clone()) != found {
@@ -145,19 +143,21 @@ fn join(
         let column = |name: &str| found.iter().position(|own| own == name);
         let outcome = column(OUTCOME).ok_or_else(|| broken(path)(format!("it has no column `{OUTCOME}`")))?;
         let failure = column(FAILURE);
+        let counting = counting.get_or_insert_with(|| Counting::of_columns(&found));
         for row in rows {
             let row = row.map_err(broken(path))?;
             let has_result = has_result(&row[outcome], failure.map_or("", |failure| &row[failure]));
-            check_row(&row, (next, has_result), expected, path)?;
+            check_row(&row, (counting.rows, has_result), expected, path)?;
             write(&row)?;
-            next += 1;
+            counting.add(&row);
         }
     }
+    let counting = counting.unwrap_or_default();
     match expected {
-        Some(ExpectedSweep { sweep, file, .. }) if sweep.len() != next => {
-            Err(Failure::ShardsMissing(file.into(), sweep.len(), next))
+        Some(ExpectedSweep { sweep, file, .. }) if sweep.len() != counting.rows => {
+            Err(Failure::ShardsMissing(file.into(), sweep.len(), counting.rows))
         }
-        _ => Ok(next),
+        _ => Ok(counting),
     }
 }
 
@@ -197,7 +197,7 @@ fn join_csv(
     expected: Option<&ExpectedSweep>,
     out: &File,
     failed: impl Fn(std::io::Error) -> Failure,
-) -> Result<usize, Failure> {
+) -> Result<Counting, Failure> {
     for path in tables {
         match last_byte(path).map_err(broken(path))? {
             Some(b'\n') => {}
@@ -208,9 +208,9 @@ fn join_csv(
     let mut writer = csv::Writer::from_writer(out);
     let mut write = |row: &StringRecord| writer.write_record(row).map_err(|error| failed(error.into()));
     write(&open(tables[0]).map_err(broken(tables[0]))?.header)?;
-    let rows = join(tables, expected, write)?;
+    let counting = join(tables, expected, write)?;
     writer.flush().map_err(&failed)?;
-    Ok(rows)
+    Ok(counting)
 }
 
 /// The last byte of a file; `None` of an empty one.
@@ -232,7 +232,7 @@ fn join_parquet(
     expected: Option<&ExpectedSweep>,
     out: &File,
     failed: impl Fn(std::io::Error) -> Failure,
-) -> Result<usize, Failure> {
+) -> Result<Counting, Failure> {
     let columns = |path: &Path| parquet::columns(path).map_err(broken(path));
     let own = expected.map_or_else(|| columns(tables[0]), |expected| Ok(expected.columns.clone()))?;
     for path in tables {
@@ -241,9 +241,9 @@ fn join_parquet(
         }
     }
     let mut writer = parquet::Writer::new(BufWriter::new(out), &own).map_err(&failed)?;
-    let rows = join(tables, expected, |row| writer.push(row).map_err(&failed))?;
+    let counting = join(tables, expected, |row| writer.push(row).map_err(&failed))?;
     writer.finish().and_then(|mut file| file.flush()).map_err(&failed)?;
-    Ok(rows)
+    Ok(counting)
 }
 
 /// The number of the point of a row.

@@ -1,17 +1,17 @@
 //! Probability that the column is lost (overturns or collapses), for a sweep over distributions. Each combination of the other axes gives a row
 //! of a table. The first ten combinations are also printed, a line each.
 
-use crate::commands::spectrum::beside;
 use crate::error::{Failure, at};
 use crate::number::significant;
 use crate::output;
+use crate::table::by_product::ByProduct;
 use crate::table::{Decided, decided};
 use crate::text::{printable, shown};
 use rocking::Sweep;
 use rocking::studies::Proportion;
 use serde::Serialize;
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Confidence of the intervals.
 const CONFIDENCE: f64 = 0.95;
@@ -42,11 +42,6 @@ struct Tally {
     lost: usize,
     undecided: usize,
     truncated: usize,
-}
-
-/// The table of probabilities beside that of a sweep.
-pub fn table(out: &Path) -> PathBuf {
-    beside(&out.with_extension("csv"), "probability")
 }
 
 /// Probabilities from the finished table of a sweep; empty for a sweep without distributions.
@@ -83,7 +78,7 @@ pub fn write(sweep: &Sweep, lost: &[Lost], out: &Path) -> Result<String, Failure
     if lost.is_empty() {
         return Ok(String::new());
     }
-    let path = table(out);
+    let path = ByProduct::Probability.of(out);
     let keys = sweep.grid().iter().map(|axis| axis.key.as_str());
     output::csv(&path, |rows| {
         rows.write_record(keys.chain(["runs", "lost", "undecided", "truncated", "probability", "low", "high"]))?;

@@ -32,10 +32,10 @@ pub fn run(request: &Run) -> Result<(), Failure> {
         scene.options.dynamics = DynamicsSource::Generic;
     }
     output::check_folder(out)?;
-    let folder = Folder::create(out)?;
     let outdated = figures_and_report();
     check_outputs(request, &template, &outdated)?;
     let threads = request.threads.pool()?;
+    let folder = Folder::create(out)?;
     let bar = Progress::of_run(scene.options.t_end, request.quiet);
     let failed = |error| Failure::Solve { scene: path.clone(), out: out.clone(), error };
     let start = Instant::now();

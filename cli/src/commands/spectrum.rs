@@ -3,6 +3,7 @@
 use crate::arguments::{self, Picture};
 use crate::commands::plot::write;
 use crate::error::{Failure, at};
+use crate::files::beside;
 use crate::output;
 use crate::plot::Paper;
 use crate::plot::spectrum::{check as check_axes, figures};
@@ -71,11 +72,4 @@ pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<String, Failu
 /// Paths for the figures of a table: `picture`, and `picture` with `-minimum` and with `-slides` in its name. A table has one of the latter at most.
 pub fn files(picture: &Path) -> [PathBuf; 3] {
     [picture.into(), beside(picture, "minimum"), beside(picture, "slides")]
-}
-
-/// The path of `file` with a word added to the name: `a-word.svg` for `a.svg`.
-pub fn beside(file: &Path, word: &str) -> PathBuf {
-    let stem = file.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-    let extension = file.extension().map_or_else(String::new, |own| format!(".{}", own.to_string_lossy()));
-    file.with_file_name(format!("{stem}-{word}{extension}"))
 }

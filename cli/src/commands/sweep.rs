@@ -9,10 +9,11 @@ use crate::commands::{fractiles, lost_at, spectrum};
 use crate::error::Failure;
 use crate::output;
 use crate::plot::Paper;
+use crate::table::by_product::ByProduct;
 use crate::table::column::{Column, FAILURE, Kind, OUTCOME, fits, has_result, text};
-use crate::table::digest::{TableDigest, digest_file};
-use crate::table::making::{Made, Making};
-use crate::table::tally::Tally;
+use crate::table::digest::{TableDigest, digest_file, is_digest};
+use crate::table::making::Making;
+use crate::table::tally::{Counting, Tally};
 use crate::table::{Format, check_replaced};
 use crate::terminal::{json, print, warn_of_some};
 use crate::text::{printable, shown};
@@ -33,11 +34,13 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
     if request.plot.is_some() {
         spectrum::check(request, &sweep)?;
     }
-    let derived = Derived::of(request, &sweep);
+    // They need all points: shards have none.
+    let by_products = if request.shard.is_none() { by_products(&sweep) } else { Vec::new() };
     let inputs = inputs_of(&request.file, &sweep);
-    output::check(&derived.files(request, &out), &inputs)?;
+    output::check(&files(request, &out, &by_products), &inputs)?;
     let target = output::target(&out)?;
     check_replaced(&target)?;
+    by_products.iter().try_for_each(|kind| kind.check_replaced(&kind.of(&out)))?;
     let columns = columns(&sweep)?;
     let threads = request.threads.pool()?;
     if !request.quiet {
@@ -54,7 +57,6 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
         points,
         threads: &threads,
         shows_progress: !request.quiet && !request.json,
-        outdated: &[probability::table(&out), fractiles::table(&out)],
         inputs: &inputs,
     };
     let fields = sweep.fields().map_err(Failure::scene)?;
@@ -71,18 +73,19 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
     // Only now: an interrupted run leaves the table of an earlier one with the digest of that one.
     match request.shard {
         Some(_) => output::file(&digest_file(&out), digest.to_string())?,
-        None => output::remove(&digest_file(&out), &inputs)?,
+        None => output::remove(&digest_file(&out), &inputs, is_digest)?,
     }
-    let lost = if derived.probabilities { probability::of(&sweep, &out)? } else { Vec::new() };
+    let has = |kind: ByProduct| by_products.contains(&kind);
+    let lost = if has(ByProduct::Probability) { probability::of(&sweep, &out)? } else { Vec::new() };
     let probabilities = probability::write(&sweep, &lost, &out)?;
-    let fractiles = if derived.fractiles { fractiles::write(&sweep, &out)? } else { String::new() };
+    let fractiles = if has(ByProduct::Fractiles) { fractiles::write(&sweep, &out)? } else { String::new() };
     // Last: where a figure cannot be drawn, the tables and the counts are there.
     let drawn =
         request.plot.as_ref().map_or(Ok(String::new()), |picture| spectrum::draw(&out, picture, &Paper::default()));
     if request.json {
-        json(&Counts { tally: &table.tally, lost })?;
+        json(&Counts { tally: &table.counting.tally, lost })?;
     } else if !request.quiet {
-        let Made { tally, rows, first_error, .. } = &table;
+        let Counting { tally, rows, first_error, .. } = &table.counting;
         let wrote = format!("wrote {rows} row(s){} to {}\n", table.already_there(), shown(&out));
         // If all rows are errors, the failure below states the first one.
         let failed = first_error.as_ref().filter(|_| tally.errors < *rows);
@@ -91,32 +94,23 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
         let at = if request.shard.is_none() { lost_at::in_words(&sweep, &out)? } else { String::new() };
         print(&format!("{tally}{at}{failed}{wrote}{probabilities}{fractiles}{figures}"))?;
     }
-    drawn?;
-    table.failure(&out, false).map_or(Ok(()), Err)
+    table.counting.failure(&out, false).map_or(Ok(()), Err)?;
+    drawn.map(|_| ())
 }
 
-/// Which tables are made of the table of a sweep. They need all its points: shards have none.
-#[derive(Clone, Copy)]
-struct Derived {
-    probabilities: bool,
-    fractiles: bool,
+/// Tables that are made of the table of a whole sweep.
+pub fn by_products(sweep: &Sweep) -> Vec<ByProduct> {
+    let probability = sweep.samples().map(|_| ByProduct::Probability);
+    probability.into_iter().chain(fractiles::has(sweep).then_some(ByProduct::Fractiles)).collect()
 }
 
-impl Derived {
-    fn of(request: &arguments::Sweep, sweep: &Sweep) -> Derived {
-        let is_whole = request.shard.is_none();
-        Derived { probabilities: is_whole && sweep.samples().is_some(), fractiles: is_whole && fractiles::has(sweep) }
-    }
-
-    /// All files that a sweep writes.
-    fn files(self, request: &arguments::Sweep, out: &Path) -> Vec<PathBuf> {
-        let mut files = vec![out.to_path_buf()];
-        files.extend(request.plot.iter().flat_map(|picture| spectrum::files(picture)));
-        files.extend(self.probabilities.then(|| probability::table(out)));
-        files.extend(self.fractiles.then(|| fractiles::table(out)));
-        files.extend(request.shard.map(|_| digest_file(out)));
-        files
-    }
+/// All files that a sweep writes.
+fn files(request: &arguments::Sweep, out: &Path, by_products: &[ByProduct]) -> Vec<PathBuf> {
+    let mut files = vec![out.to_path_buf()];
+    files.extend(request.plot.iter().flat_map(|picture| spectrum::files(picture)));
+    files.extend(by_products.iter().map(|kind| kind.of(out)));
+    files.extend(request.shard.map(|_| digest_file(out)));
+    files
 }
 
 /// The points to be run: all of a sweep, or those of a shard.

@@ -25,6 +25,7 @@ mod strips;
 
 use super::paper::{Angles, Paper};
 use super::sheet::Figure;
+use class::Class;
 use curves::Measure;
 use family::Family;
 use grid::{Grid, Plane};
@@ -90,6 +91,9 @@ pub fn check(axes: &[Axis], points: usize, with_peaks: bool) -> Result<(), NoSpe
 /// Figures of a sweep's table: largest angles, and slides where there are some, as curves, outcomes as strips, or a spectrum with the least values that overturn.
 pub fn figures(table: &Path, paper: &Paper) -> Result<Vec<Figure>, NoSpectrum> {
     let mut points = Points::read(table)?;
+    if points.len() > 0 && points.classes.iter().all(|class| *class == Class::Error) {
+        return Err(NoSpectrum::NoResult(points.len()));
+    }
     if paper.angles == Angles::Degrees {
         points.axes.iter_mut().for_each(in_degrees);
     }

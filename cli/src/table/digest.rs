@@ -39,3 +39,8 @@ pub fn digest_file(table: &Path) -> PathBuf {
     name.push(".digest");
     table.with_file_name(name)
 }
+
+/// Whether a text is that of a digest.
+pub fn is_digest(text: &str) -> bool {
+    !text.trim().is_empty() && text.trim().bytes().all(|byte| byte.is_ascii_hexdigit())
+}

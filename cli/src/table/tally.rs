@@ -1,6 +1,7 @@
 //! How many runs of a table ended how.
 
 use super::column::{OUTCOME, TRUNCATED, TRUST};
+use crate::error::Failure;
 use csv::StringRecord;
 use rocking::Fate;
 use rocking::trust::Degree;
@@ -26,35 +27,65 @@ pub struct Tally {
     pub likely: usize,
 }
 
-impl Tally {
-    /// The tally of a table of CSV, and the first error in it.
-    pub fn of(path: &Path) -> std::io::Result<(Tally, Option<String>)> {
-        let (mut tally, mut first_error) = (Tally::default(), None);
+/// Counts the rows of a table by outcome.
+#[derive(Debug, Default)]
+pub struct Counting {
+    pub tally: Tally,
+    /// Number of rows counted.
+    pub rows: usize,
+    /// The error of the first row without a result.
+    pub first_error: Option<String>,
+    outcome: Option<usize>,
+    truncated: Option<usize>,
+    trust: Option<usize>,
+}
+
+impl Counting {
+    /// A count of no rows yet, of a table with these columns.
+    pub fn of_columns<S: AsRef<str>>(header: impl IntoIterator<Item = S> + Clone) -> Counting {
+        let place = |column: &str| header.clone().into_iter().position(|name| name.as_ref() == column);
+        let [outcome, truncated, trust] = [OUTCOME, TRUNCATED, TRUST].map(place);
+        Counting { outcome, truncated, trust, ..Counting::default() }
+    }
+
+    /// The count of a table of CSV.
+    pub fn of_table(path: &Path) -> std::io::Result<Counting> {
         let mut reader = csv::Reader::from_path(path)?;
-        let place = |headers: &StringRecord, column: &str| headers.iter().position(|name| name == column);
-        let headers = reader.headers()?;
-        let [outcome, truncated, trust] = [OUTCOME, TRUNCATED, TRUST].map(|name| place(headers, name));
+        let mut counting = Counting::of_columns(reader.headers()?);
         let mut row = StringRecord::new();
         while reader.read_record(&mut row)? {
-            tally.truncated += usize::from(truncated.and_then(|place| row.get(place)) == Some("true"));
-            let degree = trust.and_then(|place| Degree::parse(row.get(place)?));
-            tally.likely += usize::from(degree == Some(Degree::Likely));
-            *match outcome.and_then(|outcome| row.get(outcome)).unwrap_or_default() {
-                name if name == Fate::Undetermined.name() => &mut tally.undetermined,
-                _ if degree == Some(Degree::NotDetermined) => &mut tally.not_determined,
-                name if name == Fate::NoUplift.name() => &mut tally.no_uplift,
-                name if name == Fate::Rocks.name() => &mut tally.rocks,
-                name if name == Fate::Overturns.name() => &mut tally.overturns,
-                name if name == Fate::Slides.name() => &mut tally.slides,
-                name if name == Fate::Collapses.name() => &mut tally.collapses,
-                name if name == Fate::NotDetermined.name() => &mut tally.not_determined,
-                _ => {
-                    first_error.get_or_insert_with(|| row.iter().next_back().unwrap_or_default().to_string());
-                    &mut tally.errors
-                }
-            } += 1;
+            counting.add(&row);
         }
-        Ok((tally, first_error))
+        Ok(counting)
+    }
+
+    /// Counts a row.
+    pub fn add(&mut self, row: &StringRecord) {
+        self.rows += 1;
+        let tally = &mut self.tally;
+        tally.truncated += usize::from(self.truncated.and_then(|place| row.get(place)) == Some("true"));
+        let degree = self.trust.and_then(|place| Degree::parse(row.get(place)?));
+        tally.likely += usize::from(degree == Some(Degree::Likely));
+        *match self.outcome.and_then(|outcome| row.get(outcome)).unwrap_or_default() {
+            name if name == Fate::Undetermined.name() => &mut tally.undetermined,
+            _ if degree == Some(Degree::NotDetermined) => &mut tally.not_determined,
+            name if name == Fate::NoUplift.name() => &mut tally.no_uplift,
+            name if name == Fate::Rocks.name() => &mut tally.rocks,
+            name if name == Fate::Overturns.name() => &mut tally.overturns,
+            name if name == Fate::Slides.name() => &mut tally.slides,
+            name if name == Fate::Collapses.name() => &mut tally.collapses,
+            name if name == Fate::NotDetermined.name() => &mut tally.not_determined,
+            _ => {
+                self.first_error.get_or_insert_with(|| row.iter().next_back().unwrap_or_default().to_string());
+                &mut tally.errors
+            }
+        } += 1;
+    }
+
+    /// The failure of a table in which no run has a result; `None` for others. `is_kept` says whether an earlier table of this name stays.
+    pub fn failure(&self, table: &Path, is_kept: bool) -> Option<Failure> {
+        let first = self.first_error.clone().filter(|_| self.tally.errors == self.rows)?;
+        Some(Failure::NoResult { table: table.into(), points: self.rows, first, is_kept })
     }
 }
 

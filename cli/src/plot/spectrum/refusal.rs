@@ -12,6 +12,9 @@ pub enum NoSpectrum {
     /// The file is not the table of a sweep.
     #[error("{0}; give the table that `rocking sweep` wrote")]
     NoTable(String),
+    /// All runs failed: a picture of them would say that no column overturns.
+    #[error("none of its {0} run(s) has a result: nothing is to be drawn; its column `error` says why")]
+    NoResult(usize),
     /// Too few axes of numbers with several values.
     #[error("no axis with numbers has several values; give e.g. amplitude_uplift several")]
     FewAxes,
