@@ -28,9 +28,9 @@ const SHORT: Duration = Duration::from_millis(2);
 const PART: usize = 1 << 16;
 
 /// Computes one result for each index of `range` on the threads of `pool`. `worker` is called once per thread and part of the range and returns the function
-/// with which that thread computes. The calling thread hands finished results to `take` in the order of their indices, some 0.1 s after they and those before
-/// them are finished at the latest, or when the next run of the same thread ends. Where none has finished it hands over an empty list as often. When `take`
-/// breaks, no further result is begun.
+/// with which that thread computes. The calling thread hands finished results to `take` in the order of their indices: about 0.1 s after a result and all
+/// before it are finished, or when the present run of its thread ends, if that is later. Every 0.1 s in which nothing has finished it hands over an empty
+/// list. When `take` breaks, no further result is begun.
 ///
 /// # Panics
 /// If it is called on a thread of `pool`, which would wait for itself.

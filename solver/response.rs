@@ -365,8 +365,8 @@ pub struct Response {
     /// Whether the column that stands at `t_end` is past its balance, or has the energy to get there on a ground that rests from then on: it may be falling.
     #[serde(default)]
     pub may_overturn: bool,
-    /// Whether the ground rests from `t_end` on and blocks slide or fly then: their slides at the end are not final. Only with friction. Blocks that
-    /// rock then may slide at a later impact: nothing is said of that.
+    /// Whether the ground rests from `t_end` on and blocks slide or fly then: their slides at the end are not final. Only with friction. Slides that
+    /// a later impact would start do not count.
     #[serde(default)]
     pub slides_on: bool,
     /// The block whose angle reached, or is certain to reach, the overturning angle first, from 1.
@@ -432,8 +432,8 @@ impl Response {
         (self.status == StopReason::Overturned).then_some(self.t_final)
     }
 
-    /// Whether the run ended with a block at an overturning angle `[rad]` that is below the balance of the stack that begins with it: it may have returned.
-    /// `column` is that of the run.
+    /// True if the run ended because a block reached `overturn_angle` `[rad]` and that angle is below the slenderness of the stack from this block up: the
+    /// block might have come back. `column` is that of the run.
     ///
     /// # Panics
     /// If `column` has another number of blocks than that of the run.

@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 /// Coefficients of friction for [`ContactNeeds::above`], dimensionless: from polished stone to a value that bare stone on stone hardly reaches.
 pub const COEFFICIENTS: [f64; 4] = [0.3, 0.5, 0.7, 1.0];
 
-/// Normal force of a contact, as a share of the weight above it, up to which it counts as none, and its friction demand is left out: where blocks part, both
-/// forces are rounding. If the share were larger, contacts under little load would be left out.
+/// Share of the weight above a contact up to which its normal force counts as zero; its friction demand is then left out, as both forces are rounding where
+/// blocks part. If the share were larger, contacts under little load would be left out.
 pub const LIGHT_CONTACT: f64 = 1e-9;
 
 /// What the contacts of a run need, up to the point of no return.

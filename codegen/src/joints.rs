@@ -219,7 +219,7 @@ pub fn combinations(blocks: usize) -> Vec<Vec<u64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::moving::is_entered;
+    use crate::moving::occurs;
 
     #[test]
     fn an_interface_has_ten_states_which_read_back() {
@@ -252,7 +252,7 @@ mod tests {
             assert_eq!(counts.iter().flatten().sum::<u64>(), 10u64.pow(blocks as u32));
             for (angles, row) in counts.iter().enumerate() {
                 for (translations, count) in row.iter().enumerate() {
-                    assert_eq!(*count > 0, is_entered(blocks, angles, translations), "{angles}, {translations}");
+                    assert_eq!(*count > 0, occurs(blocks, angles, translations), "{angles}, {translations}");
                 }
             }
         }

@@ -48,7 +48,7 @@ pub fn moving_name(angles: usize, translations: usize) -> String {
 
 /// Whether a column of `blocks` blocks has a combination of states with these numbers of free angles and translations. An interface with a
 /// free angle has at most two translations (in flight). An interface without one has at most one translation (a slide).
-pub fn is_entered(blocks: usize, angles: usize, translations: usize) -> bool {
+pub fn occurs(blocks: usize, angles: usize, translations: usize) -> bool {
     angles <= blocks && translations <= blocks + angles
 }
 
@@ -61,7 +61,7 @@ pub fn is_entered(blocks: usize, angles: usize, translations: usize) -> bool {
 pub fn covered(max_blocks: usize) -> Vec<(usize, usize)> {
     let pairs = (0..=max_blocks).flat_map(|angles| (1..=max_blocks + angles).map(move |count| (angles, count)));
     let small = max_blocks.min(ALL_STATES);
-    pairs.filter(|&(angles, count)| is_entered(small, angles, count) || count <= FEW_TRANSLATIONS).collect()
+    pairs.filter(|&(angles, count)| occurs(small, angles, count) || count <= FEW_TRANSLATIONS).collect()
 }
 
 /// The programs of [`covered`].

@@ -77,8 +77,8 @@ impl<'a> Links<'a> {
         self.geometry(self.blocks.iter().cloned(), self.pivots.clone())
     }
 
-    /// Equations of an interface (from zero), and the geometry that their scene constants read. The equations are one of `whole`, those of the
-    /// linkage, or one of `inside`, those of a link that the interface divides.
+    /// The equations that hold at an interface (numbered from zero), with the geometry that their scene constants read. They are one of `whole`, the equations
+    /// of the linkage; or, where the interface lies inside a link, one of `inside`, the equations of divided links.
     pub fn at_interface(
         &self,
         interface: usize,

@@ -262,9 +262,8 @@ impl<'a, S: Size> Posture<'a, S> {
         result
     }
 
-    /// Resultant at each interface on the stack above it, from the accelerations of the blocks minus that of gravity `[m/s²]`, `[rad/s²]`; from jumps of
-    /// velocity, impulses. Both lists have length N.
-    /// docs/book/model.md, section 4.
+    /// Resultant at each interface on the stack above it (docs/book/model.md, section 4). Accelerations of the blocks less that of gravity `[m/s²]`, `[rad/s²]`
+    /// give forces, jumps of velocity `[m/s]`, `[rad/s]` give impulses. Both lists have length N.
     #[inline(always)]
     pub fn resultants(&self, linear: &[Vec2], angular: &[f64]) -> S::List<ContactForce> {
         let blocks = self.blocks();

@@ -2,7 +2,7 @@
 //!
 //! No operation is a fused multiply-add, so that every result is bit for bit that of the plainest instructions, on every machine.
 
-/// Runs `work`, compiled with everything inlined into it for the widest instructions of this machine.
+/// Runs `work`. It is compiled, together with all that is inlined into it, for the widest instructions of this machine.
 #[inline(always)]
 pub fn widest<R>(work: impl FnOnce() -> R) -> R {
     pulp::Arch::new().dispatch(work)

@@ -17,7 +17,7 @@ pub struct Log {
     pub impacts: usize,
     /// Impacts at which restitution was left out.
     pub without_restitution: usize,
-    /// Energy lost at impacts at which nothing slides `[J]`.
+    /// Energy lost at impacts in parts of the run in which nothing slides `[J]`. Impacts of other parts are in the report of slides.
     pub impact_losses: f64,
     pub extremes: Extremes,
 }

@@ -11,7 +11,8 @@ use rocking_codegen::pattern::Interface;
 use rocking_ground::{Piece, Segment};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// The least horizontal acceleration of the ground that opens some interface, if the ground does not move vertically `[m/s²]`.
+/// The least horizontal acceleration of the ground that opens some interface, if the ground does not move vertically `[m/s²]`. Negative for a
+/// stack that leans beyond its support.
 pub(super) fn least_uplift(column: &Column) -> f64 {
     let lever = |i: usize| column.contact_half_width(i) - column.centroid_offset(i).abs();
     let own = |i: usize| column.gravity() * lever(i) / column.centroid_height(i);
@@ -73,7 +74,7 @@ fn until_sine_is(limit: f64, segment: &Segment, t: f64) -> f64 {
 /// Steps of a rest that is not skipped, per radian of the ground motion.
 const STEPS_PER_RADIAN: f64 = 20.0;
 
-/// Least number of them per second.
+/// Least number of these steps per second.
 const LEAST_STEPS_PER_SECOND: f64 = 100.0;
 
 /// As [`earliest_start`], but nothing is left out: step by step, as an integrator would go.

@@ -11,8 +11,8 @@ use std::ops::RangeInclusive;
 /// Height above which a column has most likely been given in cm or mm `[m]`. The tallest columns of stone have some thirty.
 const TALL: f64 = 60.0;
 
-/// Densities of drums that have most likely been given in t/m³ `[kg/m³]`. One alone stands where nothing is given, and in scenes of which only ratios of
-/// masses count.
+/// Densities of drums that have most likely been given in t/m³ `[kg/m³]`. A density of exactly 1 is none of them: it is the default, and usual where only
+/// ratios of masses count.
 const T_PER_M3: RangeInclusive<f64> = 1.2..=4.0;
 
 /// Largest plausible ratio of the densities of two blocks: lead is some twenty times denser than wood, and prisms are counted by their side view, for any depth.

@@ -324,7 +324,7 @@ fn check_range(table: &Table, block: &Block) -> Result<(), Wrong> {
         return Ok(());
     }
     let problem = format!("mass {:e} kg and inertia {:e} kg m² leave the range of doubles", block.mass, block.inertia);
-    // The one that is farthest from usual sizes, under the name that the table has for it.
+    // The size that is farthest from usual ones is named, by the key that the table has for it.
     let far = |value: f64| if value > 0.0 { value.log10().abs() } else { 0.0 };
     let bottom = ["half_width", "width", "diameter", "bottom_half_width", "bottom_width", "bottom_diameter"];
     let top = ["half_width", "width", "diameter", "top_half_width", "top_width", "top_diameter"];

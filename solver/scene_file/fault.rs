@@ -68,7 +68,7 @@ pub(super) fn refused(root: &Table, fault: &SceneError) -> Wrong {
     {
         key = "friction".into();
     }
-    // A record is too strong by the size that it is scaled to, where that is given, or by its samples.
+    // Of a record that is too strong, the fault is that of the key by which it is scaled, or else of its file or samples.
     if let Some(component) = key.strip_suffix(".file").map(str::to_string) {
         let given = ["scale", "file", "accel"].into_iter().find_map(|name| root.given(&format!("{component}.{name}")));
         key = given.unwrap_or(key);

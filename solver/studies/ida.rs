@@ -222,7 +222,7 @@ impl Ida {
         &self.levels
     }
 
-    /// Time after each record `[s]`.
+    /// How long each run goes on after the end of its record `[s]`.
     pub fn free_swing(&self) -> f64 {
         self.free_swing
     }

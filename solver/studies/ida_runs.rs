@@ -109,7 +109,8 @@ impl Ida {
         move |index| self.run(&mut simulator, &progress, index)
     }
 
-    /// Whether runs record their largest gaps. With friction, and with initial angles or rates, gaps come from rows.
+    /// Whether runs record their largest gaps. With friction, gaps come from rows; with initial angles or rates as well: a gap at the start is that of the
+    /// first row.
     fn records_gaps(&self) -> bool {
         let Scene { initial, friction, .. } = self.scene();
         friction.is_none() && initial.theta.is_empty() && initial.omega.is_empty()

@@ -44,7 +44,7 @@ pub enum Maximum {
     Reversed,
 }
 
-/// `Φ(a + b ln x)`.
+/// A probit curve: the probability that a run at level `x` reaches the state is `Φ(a + b ln x)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Probit {
     /// `a`, dimensionless.

@@ -142,7 +142,7 @@ impl Sweep {
         Ok(())
     }
 
-    /// Sampled axis whose smallest or largest sample no scene takes, and why. Every such sample would be a row with an error.
+    /// A sampled axis whose smallest or largest sample is refused by the scenes of all points tried, and why. Every such sample would be a row with an error.
     ///
     /// A sample may also be refused for what the other axes have in its row, such as kinetic friction above the static one. It is put in place of the samples
     /// of points all over the sweep: only where all of them are refused for the same reason is the sample at fault.

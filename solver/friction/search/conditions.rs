@@ -28,7 +28,8 @@ impl Search<'_> {
     }
 
     /// State of a corner on the face that carries it. Coinciding corners are two contacts, each of a corner with the prolonged face of the other block. A slide
-    /// outwards is along the lower face, a slide inwards along the upper one; the corner parts from the other face.
+    /// outwards is along the lower face, a slide inwards along the upper one; the corner parts from the other face. That is so at this instant. An instant
+    /// later the corner has passed the other one, and the faces are exchanged ([`face_after_coinciding`]).
     pub(super) fn corner(&self, interface: usize, side: Sign, slip: Slip) -> Joint {
         let face = match (self.face(interface, side), slip) {
             (Face::Both, Slip::Slides(direction)) if direction == side => Face::Lower,

@@ -10,7 +10,7 @@ use crate::mechanics::kinematics::{lower, relative};
 use crate::numerics::elimination::Factors;
 use crate::numerics::per_block::PerBlock;
 
-/// Least change of some velocity that makes an impact, as a share of the speed at work.
+/// Least change of a velocity with which the answer to a jam is an impact, as a share of the speed at work.
 const JUMP_SHARE: f64 = 1e-9;
 
 /// Speeds with which blocks come down on each other where a jam is answered as the limit of impacts, as shares of the speed at work. Large ones change the
@@ -63,7 +63,7 @@ impl Search<'_> {
     }
 
     /// The states after an impact in which all blocks come down on those below with this speed `[m/s]` besides their motion: a jam is the limit of such
-    /// impacts. `None` if there is no impact, or Lemke's method finds no states.
+    /// impacts. `None` if the question is not that of an impact, or if Lemke's method finds no states.
     fn states_if_approaching(&self, speed: f64) -> Option<PerBlock<Joint>> {
         let Question::Impact(before) = &self.question else { return None };
         let mut before = before.clone();

@@ -19,9 +19,9 @@ pub(super) const MOST_BLOCKS_TRIED: usize = 3;
 const OTHER_SHARE: f64 = 1e-6;
 
 impl Search<'_> {
-    /// The states in which everything sticks that touches, if they are admissible beside those found, in which something slides: they come first.
-    /// Only with less kinetic than static friction, or with large coefficients, both may be admissible. `None` also where something slides on, or is
-    /// to begin.
+    /// The admissible states in which everything that touches sticks. They come before `found`: states in which something slides, or none at all. Both can
+    /// be admissible only with less kinetic than static friction, or with large coefficients. `None` if `found` slides nowhere, if something slides in
+    /// `first` (it slides on, or is to begin), and where one answer alone is possible.
     pub(super) fn without_slides(&self, first: &[Joint], found: Option<&Solution>) -> Option<Solution> {
         let touches = |(joint, touch): (&Joint, &Touch)| joint.sticks() || *touch == Touch::Nothing;
         let stick = |joints: &[Joint]| joints.iter().zip(self.touch).all(touches);

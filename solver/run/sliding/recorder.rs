@@ -214,12 +214,12 @@ impl<'p> SlidingRecorder<'p> {
         self.log.impacts += response.impacts;
         self.log.without_restitution += response.without_restitution;
         self.log.extremes.add_part(&response);
-        // Whether blocks rocked before others slid belongs to the outcome.
+        // Also where the outcome alone is wanted: from these times it follows whether the column rocked.
         for (mode, time) in response.time_in_mode {
             *self.time_in_mode.entry(mode).or_insert(0.0) += time;
             self.report.times.iter_mut().for_each(|times| times.sticking += time);
         }
-        // A block that has landed with a slide may only stick from there on.
+        // The slide with which a block has landed counts, although nothing slides from there on.
         raise(&mut self.report.peak_slide, &from.configuration.slide);
         if !self.problem.is_recorded() {
             return;
