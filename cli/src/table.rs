@@ -151,8 +151,8 @@ pub fn decided(path: &Path) -> std::io::Result<(StringRecord, impl Iterator<Item
     let [outcome, truncated, trust] = [OUTCOME, TRUNCATED, TRUST].map(|name| header.iter().position(|own| own == name));
     let decided = move |row: StringRecord| {
         let cell = |column: Option<usize>| column.and_then(|column| row.get(column)).unwrap_or_default();
-        let fate =
-            Fate::parse(cell(outcome)).filter(|fate| fate.is_decided() && cell(trust) != Degree::NotDetermined.name());
+        let fate = Fate::parse(cell(outcome)).map(|fate| fate.as_determined(Degree::parse(cell(trust))));
+        let fate = fate.filter(|fate| fate.is_decided());
         Decided { fate, is_truncated: cell(truncated) == "true", row }
     };
     Ok((header, rows.map(move |row| row.map(decided))))

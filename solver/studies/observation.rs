@@ -118,16 +118,16 @@ impl TryFrom<Cells<'_>> for Observation {
         };
         // A study says so in the column of outcomes; its peaks are those of the time in which the run is known. A run from which no motion follows has no
         // verdict.
-        let is_open = degree == Some(Degree::NotDetermined) && fate.is_some_and(Fate::is_decided);
+        let judged = fate.map(|fate| fate.as_determined(degree));
         let rocks = matches!(fate, Some(Fate::Rocks | Fate::Overturns));
         Ok(Observation {
             record,
             level,
-            fate: if is_open { Some(Fate::NotDetermined) } else { fate },
+            fate: judged,
             // Tables with the column and without it may have been joined: its blank says nothing of a run that rocks.
             has_uplift: rocks || has_uplift.unwrap_or(false),
             // Peaks of a whole run that is not determined mean nothing: its companions have other peaks.
-            peaks: if is_open { Vec::new() } else { peaks },
+            peaks: if judged == fate { peaks } else { Vec::new() },
             residual_slides,
         })
     }

@@ -108,8 +108,8 @@ impl Outcome {
     /// Largest `|θ|/α` of all blocks; infinite for a lost column. `None` if peaks are not asked for, if no motion follows from the laws of
     /// contact, or if the verdict is not determined.
     pub fn demand(&self) -> Option<f64> {
-        let is_open = !self.fate.is_decided() || self.trust == Some(Degree::NotDetermined);
-        let largest = self.peaks.iter().copied().reduce(f64::max).filter(|_| !is_open)?;
+        let is_decided = self.fate.as_determined(self.trust).is_decided();
+        let largest = self.peaks.iter().copied().reduce(f64::max).filter(|_| is_decided)?;
         Some(if self.fate.is_lost() { f64::INFINITY } else { largest })
     }
 }

@@ -38,6 +38,7 @@ pub use history::AGREEMENT;
 pub use verdict::Verdict;
 
 use crate::names::named;
+use crate::response::Fate;
 use serde::{Deserialize, Serialize};
 
 /// How far a run can be trusted, from its companions.
@@ -49,8 +50,8 @@ pub struct Trust {
     pub outcome: String,
     /// Whether the verdict of the run is determined: certain within the horizon, and the same for all companions.
     pub determined: bool,
-    /// Whether a verdict that is not determined is that of all companions, 24 further ones included. A verdict that a tenth of all changes below a millionth
-    /// reverses is called likely with a chance of 8 %.
+    /// True if the verdict is not determined, but all companions share it, the 24 further ones included. If one in ten of all changes below a millionth
+    /// reversed the verdict, this would still be true with a probability of 8 %.
     #[serde(default)]
     pub likely: bool,
     /// The verdict of the run itself.
@@ -74,7 +75,7 @@ pub struct Trust {
     pub compared_every: f64,
     /// Largest relative difference of an angle or a slide, per relative change of excitation or sizes, as long as the runs agree, dimensionless.
     pub amplification: f64,
-    /// Whether the amplification is a lower bound: runs part, and changes may have grown on.
+    /// True if the amplification is a lower bound: a companion has parted from the run, and its difference is not followed from there on.
     pub grows_on: bool,
     /// Whether all companions lose the same block as the run, or none if the run loses none; `false` if a companion failed.
     pub same_block: bool,
@@ -105,6 +106,22 @@ pub enum Degree {
 }
 
 named!(Degree: Determined = "determined", Likely = "likely", NotDetermined = "not-determined");
+
+impl Fate {
+    /// This outcome as it counts where companions determine it to this degree: [`Fate::NotDetermined`] if they do not. `None` where there are no companions.
+    ///
+    /// ```
+    /// use rocking::{Fate, trust::Degree};
+    /// assert_eq!(Fate::Rocks.as_determined(Some(Degree::NotDetermined)), Fate::NotDetermined);
+    /// assert_eq!(Fate::Rocks.as_determined(Some(Degree::Likely)), Fate::Rocks);
+    /// // No motion follows, whatever companions do.
+    /// assert_eq!(Fate::Undetermined.as_determined(Some(Degree::NotDetermined)), Fate::Undetermined);
+    /// ```
+    pub fn as_determined(self, degree: Option<Degree>) -> Fate {
+        let is_open = degree == Some(Degree::NotDetermined) && self.is_decided();
+        if is_open { Fate::NotDetermined } else { self }
+    }
+}
 
 impl Trust {
     /// How far the verdict is determined, in a word.

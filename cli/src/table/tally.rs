@@ -66,15 +66,15 @@ impl Counting {
         tally.truncated += usize::from(self.truncated.and_then(|place| row.get(place)) == Some("true"));
         let degree = self.trust.and_then(|place| Degree::parse(row.get(place)?));
         tally.likely += usize::from(degree == Some(Degree::Likely));
-        *match self.outcome.and_then(|outcome| row.get(outcome)).unwrap_or_default() {
-            name if name == Fate::Undetermined.name() => &mut tally.undetermined,
-            _ if degree == Some(Degree::NotDetermined) => &mut tally.not_determined,
-            name if name == Fate::NoUplift.name() => &mut tally.no_uplift,
-            name if name == Fate::Rocks.name() => &mut tally.rocks,
-            name if name == Fate::Overturns.name() => &mut tally.overturns,
-            name if name == Fate::Slides.name() => &mut tally.slides,
-            name if name == Fate::Collapses.name() => &mut tally.collapses,
-            name if name == Fate::NotDetermined.name() => &mut tally.not_determined,
+        let fate = self.outcome.and_then(|outcome| Fate::parse(row.get(outcome)?));
+        *match fate.map(|fate| fate.as_determined(degree)) {
+            Some(Fate::NoUplift) => &mut tally.no_uplift,
+            Some(Fate::Rocks) => &mut tally.rocks,
+            Some(Fate::Overturns) => &mut tally.overturns,
+            Some(Fate::Slides) => &mut tally.slides,
+            Some(Fate::Collapses) => &mut tally.collapses,
+            Some(Fate::Undetermined) => &mut tally.undetermined,
+            Some(Fate::NotDetermined) => &mut tally.not_determined,
             _ => {
                 self.first_error.get_or_insert_with(|| row.iter().next_back().unwrap_or_default().to_string());
                 &mut tally.errors

@@ -1,5 +1,7 @@
 //! Outcomes as figures distinguish them.
 
+use rocking::Fate;
+
 /// The outcome of a point as the figure distinguishes it, from the least to the most violent; points without a result last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Class {
@@ -68,20 +70,20 @@ impl Class {
     }
 
     /// The class of a row; `impacts` are `None` where they are not counted.
-    pub fn of(outcome: &str, impacts: Option<u64>) -> Option<Class> {
-        Some(match (outcome, impacts) {
-            ("no-uplift", _) => Class::NoUplift,
-            ("slides", _) => Class::Slides,
-            ("collapses", _) => Class::Collapses,
-            ("rocks", _) => Class::Rocks,
-            ("overturns", None) => Class::Overturns,
-            ("overturns", Some(0)) => Class::AtOnce,
-            ("overturns", Some(1)) => Class::AfterOne,
-            ("overturns", Some(2)) => Class::AfterTwo,
-            ("overturns", Some(_)) => Class::AfterMore,
-            ("error" | "undetermined", _) => Class::Error,
-            _ => return None,
-        })
+    pub fn of(fate: Fate, impacts: Option<u64>) -> Class {
+        match (fate, impacts) {
+            (Fate::NoUplift, _) => Class::NoUplift,
+            (Fate::Slides, _) => Class::Slides,
+            (Fate::Collapses, _) => Class::Collapses,
+            (Fate::Rocks, _) => Class::Rocks,
+            (Fate::Overturns, None) => Class::Overturns,
+            (Fate::Overturns, Some(0)) => Class::AtOnce,
+            (Fate::Overturns, Some(1)) => Class::AfterOne,
+            (Fate::Overturns, Some(2)) => Class::AfterTwo,
+            (Fate::Overturns, Some(_)) => Class::AfterMore,
+            (Fate::NotDetermined, _) => Class::NotDetermined,
+            _ => Class::Error,
+        }
     }
 
     /// Whether it is known what becomes of the column.

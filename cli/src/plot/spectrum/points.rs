@@ -7,7 +7,8 @@ use crate::table::column::{OUTCOME, Rows, TRUST};
 use crate::table::{INDEX, is_nameless, numbered, open};
 use crate::text::printable;
 use csv::StringRecord;
-use rocking::sweep::kind_of_result;
+use rocking::Fate;
+use rocking::sweep::{ERROR, kind_of_result};
 use rocking::trust::Degree;
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
@@ -130,9 +131,14 @@ impl Points {
                 }
                 _ => None,
             };
-            let class = Class::of(&row[outcome], counted).ok_or_else(|| broken(cell(outcome) + " is no outcome"))?;
-            let is_open = trust.is_some_and(|trust| row.get(trust) == Some(Degree::NotDetermined.name()));
-            let class = if is_open && class.has_answer() { Class::NotDetermined } else { class };
+            let degree = trust.and_then(|trust| Degree::parse(row.get(trust)?));
+            let class = match &row[outcome] {
+                ERROR => Class::Error,
+                word => {
+                    let fate = Fate::parse(word).ok_or_else(|| broken(cell(outcome) + " is no outcome"))?;
+                    Class::of(fate.as_determined(degree), counted)
+                }
+            };
             truncated += usize::from(truncated_at.and_then(|at| row.get(at)) == Some("true"));
             let known = match class {
                 class if !class.has_answer() => Some(f64::NAN),
