@@ -47,6 +47,10 @@ fn a_check_explains_the_papers_column() {
     let alpha = number(&stacks[0]["slenderness"]);
     assert!((number(&stacks[0]["housner_ratio"]) - (1.0 - 1.5 * alpha.sin().powi(2))).abs() < 1e-12);
     assert_eq!(check["horizontal"]["kind"], "sine-pulse");
+    // What the text says of laws and tolerances.
+    assert_eq!(check["restitution"]["eta"], 0.9);
+    assert!(check["friction"].is_null());
+    assert_eq!((number(&check["gravity"]), number(&check["options"]["rtol"])), (9.81, 1e-9));
     // Of a one-sine pulse: 2 a / ω and 2π a / ω².
     let (a, omega) = (number(&check["horizontal"]["amplitude"]), number(&check["horizontal"]["omega"]));
     assert!((number(&check["horizontal"]["pgv"]) - 2.0 * a / omega).abs() < 1e-3 * a / omega);

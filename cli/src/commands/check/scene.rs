@@ -9,7 +9,7 @@ use crate::terminal::{json, print, warn};
 use crate::text::{printable, shown};
 use rocking::scene::Initial;
 use rocking::scene_file::{Derived, SceneFile};
-use rocking::{Block, Column, ContactAtRest, Motion, Restitution, Scene};
+use rocking::{Block, Column, ContactAtRest, Friction, Motion, Restitution, Scene, SolveOptions};
 use serde::{Serialize, Serializer};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -26,9 +26,13 @@ pub fn check(path: &Path, text: &str, as_json: bool) -> Result<(), Failure> {
 #[derive(Debug, Serialize)]
 struct Findings {
     title: String,
+    /// `[m/s²]`
+    gravity: f64,
     blocks: Vec<Block>,
     derived: Vec<Derived>,
     stacks: Vec<thresholds::Row>,
+    friction: Option<Friction>,
+    restitution: Restitution,
     /// Factors of the plastic relative rates at the interfaces, dimensionless.
     restitution_factors: Vec<f64>,
     /// What the ground motion does to each contact of the column at rest.
@@ -43,7 +47,9 @@ struct Findings {
     opens: Vec<usize>,
     /// When the first of them opens `[s]`.
     first_opening: Option<f64>,
+    /// Method of the smooth phases: that which `auto` chooses.
     method: &'static str,
+    options: SolveOptions,
     rows: u64,
     /// Warnings about records and numbers ([`Scene::warnings`]).
     warnings: Vec<String>,
@@ -99,18 +105,22 @@ impl Findings {
         let openings = Openings::of(&contacts, column.gravity());
         Findings {
             title: scene.title.clone(),
+            gravity: column.gravity(),
             blocks: column.blocks().to_vec(),
             derived,
             opens: openings.interfaces(),
             first_opening: openings.first(),
             contacts,
             stacks,
+            friction: scene.friction.clone(),
+            restitution: scene.restitution.clone(),
             restitution_factors: scene.restitution.factors(column),
             horizontal: component(&scene.excitation.horizontal),
             vertical: component(&scene.excitation.vertical),
             initial: scene.initial.clone(),
             slides: column.slides().to_vec(),
             method: scene.options.method.stepper().name(),
+            options: scene.options.clone(),
             rows: scene.row_times().count() as u64,
             warnings: scene.warnings(),
         }
