@@ -401,6 +401,9 @@ def test_arguments_that_a_study_does_not_use_are_refused():
     for argument in ({"vertical": rk.pulse("ricker", amplitude=1, omega=5)}, {"t_end": 20.0}):
         with pytest.raises(TypeError, match="a study has no argument"):
             rk.ida(column, rk.synthetic(range(2)), "PGV", [0.1, 0.2], **argument)
+    for keys in ({"solver.t_end": 20.0}, {"solver": {"t_end": 20.0}}):
+        with pytest.raises(TypeError, match="a study has no key `solver.t_end`"):
+            rk.ida(column, rk.synthetic(range(2)), "PGV", [0.1, 0.2], keys=keys)
 
 
 def test_a_study_follows_its_table():
@@ -633,6 +636,14 @@ def test_records_of_a_study_do_not_change_and_have_the_names_of_the_command_line
         rk.Record.synthetic(1).to_csv(tmp_path / "d" / name)
     monkeypatch.chdir(tmp_path)
     assert [one.name for one in rk.records("d")] == ["d/A_X.csv", "d/B_X.csv"]
+
+
+def test_records_in_g_are_of_the_gravity_that_is_given(tmp_path: Path) -> None:
+    (tmp_path / "A_X.csv").write_text("t [s],a [g]\n0,0\n0.1,0.5\n0.2,0\n")
+    usual, moon = (rk.records(tmp_path, **given)[0].horizontal for given in ({}, {"gravity": 1.62}))
+    assert (usual.accel.max(), moon.accel.max()) == (0.5 * 9.81, 0.5 * 1.62) and moon == rk.Record.read(tmp_path / "A_X.csv", gravity=1.62)
+    with pytest.raises(ValueError, match="gravity = -1"):
+        rk.records(tmp_path, gravity=-1)
 
 
 def test_cells_that_are_no_numbers_are_named() -> None:

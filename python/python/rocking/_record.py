@@ -492,11 +492,14 @@ def records(
     channel: int | None = None,
     column: str | int | None = None,
     skip_rows: int | None = None,
+    gravity: float = GRAVITY,
 ) -> Records:
     """All record files of a folder, in the order of their names and the numbers in them (``RSN6``, ``RSN77``, ``RSN125``).
 
     Parameters
     ----------
+    folder : path
+        The folder; what lies in folders within it is not read.
     component : str
         ``horizontal`` (the default) takes each horizontal component as a record of its own, ``vertical`` the vertical ones, another name those whose
         file name or header says so (``EW``, ``000``, ...); ``H1`` and ``H2`` are otherwise the horizontal ones by the order of the files' names.
@@ -504,9 +507,13 @@ def records(
         Whether the vertical component of each record shakes as well.
     units, dt, lenient, channel, column, skip_rows
         As of :meth:`Record.read`, for all files.
+    gravity : float
+        One g [m/s²], in files whose unit is g.
 
     Raises
     ------
+    ValueError
+        For a gravity that is not above zero.
     SceneError
         For a folder without records, a record without the component, a file that cannot be read; ``MissingFileError`` where there is no folder.
     """
@@ -517,6 +524,8 @@ def records(
         if choice is not None:
             flag(name, choice)
     optional("dt", dt)
+    if not number("gravity", gravity) > 0:
+        raise ValueError(f"gravity = {gravity} is out of range; give m/s² above zero")
     given = path_text("folder", folder)
     path = os.path.abspath(given)
     try:
@@ -541,7 +550,7 @@ def records(
         "skip_rows": skip_rows,
     }
     # The reader of studies finds components; any column and any level do.
-    study = {"measure": "pga", "levels": [1.0], "records": keys, "scene": {"block": [{"half_width": 0.1, "half_height": 1.0}]}}
+    study = {"measure": "pga", "levels": [1.0], "records": keys, "scene": {"gravity": gravity, "block": [{"half_width": 0.1, "half_height": 1.0}]}}
     try:
         found = _rocking.Ida.from_toml(_rocking.to_toml(study), "<records>").records
     except SceneError as refused:

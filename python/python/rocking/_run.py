@@ -9,7 +9,7 @@ import tempfile
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 from html import escape
-from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, NoReturn, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -26,6 +26,9 @@ from ._trust import Trust
 
 #: Interval of rows that leaves one [s].
 NO_ROWS = 1e9
+
+#: What is asked of a run.
+Wanted = Literal["everything", "outcome", "overturns"]
 
 #: What the contacts transmit, with units.
 FORCES = (("normal", "N"), ("tangential", "N"), ("moment", "N m"))
@@ -69,7 +72,7 @@ def simulate(
     vertical: MotionLike | None = None,
     rows: bool = True,
     forces: bool = True,
-    wanted: str = "everything",
+    wanted: Wanted = "everything",
     trust: bool = False,
     threads: int = 0,
     **arguments: "Unpack[SceneKeys]",

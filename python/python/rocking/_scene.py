@@ -334,7 +334,7 @@ class Scene:
         motions = {name: checked(f"{name} motion", motion) for name, motion in given if motion is not None}
         if motions:
             keys["excitation"] = copied(motions)
-        for key, value in _dotted(arguments):
+        for key, value in dotted(arguments):
             _put(keys, key, copied(value))
         self._become(keys, WITHOUT_FILE)
 
@@ -429,7 +429,7 @@ class Scene:
         for name, motion in (("horizontal", horizontal), ("vertical", vertical)):
             if motion is not None:
                 _put(keys, f"excitation.{name}", copied(checked(f"{name} motion", motion)))
-        given = list(_dotted(arguments))
+        given = list(dotted(arguments))
         # Those of the scene make room for those given; of two that are given the reader refuses one.
         for key, value in given:
             if value is not None:
@@ -541,7 +541,7 @@ class Scene:
         self._become(keys, file, _rocking.Scene.from_state(native), text)
 
 
-def _dotted(arguments: Mapping[str, Any]) -> Iterable[tuple[str, Any]]:
+def dotted(arguments: Mapping[str, Any]) -> Iterable[tuple[str, Any]]:
     """Arguments under the dotted names of their keys, those of ``keys`` last; None for a key that is left out."""
     for name, value in arguments.items():
         if name == "keys":

@@ -21,7 +21,7 @@ from ._frame import frame
 from ._plan import Plan
 from ._record import Array, Record, Records, StudyRecord
 from ._run import Run, simulate
-from ._scene import RUN, Column, Scene, SceneKeys
+from ._scene import RUN, Column, Scene, SceneKeys, dotted
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -74,6 +74,8 @@ class Ida(Plan):
         for name in ("horizontal", "vertical", "t_end", "t_eval", "output_dt"):
             if arguments.get(name) is not None:
                 raise TypeError(f"a study has no argument `{name}`: its records shake the column, and free_swing ends its runs")
+        if any(key == "solver.t_end" and value is not None for key, value in dotted(arguments)):
+            raise TypeError("a study has no key `solver.t_end`: free_swing ends its runs")
         scene = column if isinstance(column, Scene) else Scene(column, **arguments)
         if scene is column and arguments:
             scene = scene.replace(**arguments)

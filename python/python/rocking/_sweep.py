@@ -19,6 +19,12 @@ from ._scene import FILE_KEYS, POINT, Scene, absolute, is_label
 if TYPE_CHECKING:
     import pyarrow
 
+#: What is asked of each run of a sweep.
+Ask = Literal["outcome", "overturns", "peaks", "slides", "validity", "trust"]
+
+#: How axes are combined.
+Combine = Literal["cartesian", "paired"]
+
 # Points whose scenes are read for warnings.
 POINTS_READ = 1000
 
@@ -59,8 +65,8 @@ class Sweep(Plan):
         scene: Scene,
         axes: Mapping[str, Any],
         *,
-        ask: str = "outcome",
-        combine: str = "cartesian",
+        ask: Ask = "outcome",
+        combine: Combine = "cartesian",
         sampling: Mapping[str, Any] | None = None,
     ) -> None:
         if not isinstance(scene, Scene):
@@ -156,8 +162,8 @@ def sweep(
     scene: Scene,
     axes: Mapping[str, Any],
     *,
-    ask: str = ...,
-    combine: str = ...,
+    ask: Ask = ...,
+    combine: Combine = ...,
     sampling: Mapping[str, Any] | None = ...,
     threads: int = ...,
     table: Literal["pandas"] = ...,
@@ -169,8 +175,8 @@ def sweep(
     scene: Scene,
     axes: Mapping[str, Any],
     *,
-    ask: str = ...,
-    combine: str = ...,
+    ask: Ask = ...,
+    combine: Combine = ...,
     sampling: Mapping[str, Any] | None = ...,
     threads: int = ...,
     table: Literal["pyarrow"],
@@ -181,8 +187,8 @@ def sweep(
     scene: Scene,
     axes: Mapping[str, Any],
     *,
-    ask: str = "outcome",
-    combine: str = "cartesian",
+    ask: Ask = "outcome",
+    combine: Combine = "cartesian",
     sampling: Mapping[str, Any] | None = None,
     threads: int = 0,
     table: Literal["pandas", "pyarrow"] = "pandas",
