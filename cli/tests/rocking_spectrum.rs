@@ -1,7 +1,7 @@
 //! Rocking spectra: sweeps with `ask = "peaks"` over the size of the column, and their figures; figures of one axis and of paired axes.
 
 use crate::common::figures::parts;
-use crate::common::{Folder, figures};
+use crate::common::{Folder, assert_has, figures};
 use rocking::ground::Synthetic;
 use rocking::studies::fractile;
 use rocking::{Block, Column, Excitation, Motion, Restitution, Scene, Sweep, simulate};
@@ -214,6 +214,11 @@ fn one_axis_is_drawn_as_strips_or_as_a_curve_for_each_block() {
         "{told}"
     );
     assert!(!one.has("f-minimum.svg"));
+    // The second figure of another table, if there is one, is not taken for one of this.
+    one.write("t-minimum.svg", "of another table");
+    one.write("t.csv", one.read("sweep.csv"));
+    let (_, warned) = one.says("plot t.csv");
+    assert_has(&warned, &["t-minimum.svg was there before, and is no figure of this table"]);
     let table = one.table("sweep.csv");
     let standing = table.rows().filter(|row| row.text("outcome") == "rocks").count();
     let share = format!("rocks and stands, {:.0} %", 5.0 * standing as f64);

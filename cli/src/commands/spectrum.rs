@@ -8,7 +8,7 @@ use crate::output;
 use crate::plot::Paper;
 use crate::plot::spectrum::{check as check_axes, figures};
 use crate::table::Format;
-use crate::terminal::print;
+use crate::terminal::{print, warn};
 use crate::text::shown;
 use rocking::sweep::{Axis, Sweep};
 use std::fmt::Write as _;
@@ -56,15 +56,21 @@ pub fn plot(
 pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<String, Failure> {
     let mut text = String::new();
     let figures = figures(table, paper).map_err(at(Failure::Spectrum, table))?;
-    let [own, minimum, slides] = files(picture);
+    let files = files(picture);
+    let [own, minimum, slides] = &files;
+    let mut drawn = Vec::new();
     for figure in figures {
         let path = match figure.name {
-            "overturning-minimum" => &minimum,
-            "residual-slides" => &slides,
-            _ => &own,
+            "overturning-minimum" => minimum,
+            "residual-slides" => slides,
+            _ => own,
         };
         write(&figure, path)?;
         let _ = writeln!(text, "wrote {}: {}", shown(path), figure.caption);
+        drawn.push(path);
+    }
+    for file in files.iter().filter(|file| !drawn.contains(file) && file.is_file()) {
+        warn(&[format!("{} was there before, and is no figure of this table", shown(file))]);
     }
     Ok(text)
 }
