@@ -57,7 +57,8 @@ pub enum Fit {
         /// Lowest level of a run with the state.
         always_from: f64,
     },
-    /// The share of runs that reach the state falls with the level, or is the same at all levels, as no lognormal curve does.
+    /// The share of runs that reach the state falls with the level, or is the same at all levels, as no lognormal curve does; or it rises so little that the
+    /// median is beyond the range of doubles.
     Falling,
 }
 
@@ -88,7 +89,7 @@ pub struct Fragility {
     pub state: LimitState,
     /// How levels are shared.
     pub layout: Layout,
-    /// Number of records.
+    /// Number of records with a run of which it is known whether it reached the state.
     pub records: usize,
     /// Runs by level, from the lowest up.
     pub counts: Vec<Count>,
@@ -97,8 +98,9 @@ pub struct Fragility {
     pub by_loss: usize,
     /// The curve of the decided runs.
     pub fit: Fit,
-    /// The curves if none, and if all, of the undecided runs reached the state. They bound what leaving these runs out can do: a run of long shaking
-    /// that a column survives is undecided more often than an early fall. `None` where no run is undecided, or none is decided.
+    /// The curves if none, and if all, of the undecided runs reached the state. They show what leaving these runs out can do: a run of long shaking
+    /// that a column survives is undecided more often than an early fall. Curves of other answers need not lie between. `None` where no run is undecided,
+    /// or none is decided.
     pub bounds: Option<[Fit; 2]>,
     /// Goodness of the curve; `None` without a curve.
     pub goodness: Option<Goodness>,
@@ -167,7 +169,8 @@ impl Fragility {
             true => Layout::Stripes,
             false => Layout::Cloud,
         });
-        let (fit, curve) = fitted(&counts, table.records.len());
+        let records = table.records_with_answers();
+        let (fit, curve) = fitted(&counts, records);
         let is_bounded = fit != Fit::NoRuns && counts.iter().any(|count| count.undecided > 0);
         let bounds = is_bounded.then(|| {
             let of = |reached: fn(&Count) -> usize| fitted(&decided(&counts, reached), table.records.len()).0;
@@ -180,7 +183,7 @@ impl Fragility {
         Some(Fragility {
             state,
             layout,
-            records: table.records.len(),
+            records,
             by_loss: table.by_loss,
             fit,
             bounds,
@@ -229,7 +232,7 @@ fn fitted(counts: &[Count], records: usize) -> (Fit, Option<Probit>) {
         (Maximum::Always, Some(from), _) => Fit::Always { from },
         _ if records == 1 => Fit::OneRecord,
         (Maximum::Step { never_to, always_from }, ..) => Fit::Step { never_to, always_from },
-        (Maximum::Curve(curve), ..) if curve.slope > 0.0 => {
+        (Maximum::Curve(curve), ..) if curve.rises() => {
             let (median, dispersion, log_likelihood) = (curve.median(), curve.dispersion(), curve.log_likelihood);
             return (Fit::Lognormal { median, dispersion, log_likelihood }, Some(curve));
         }
@@ -296,6 +299,64 @@ mod tests {
         assert_eq!(fits.map(|fit| fit.name()), Fit::NAMES);
         for fit in fits {
             assert_eq!(serde_json::to_value(fit).expect("JSON")["kind"], fit.name());
+        }
+    }
+
+    /// A run without an answer.
+    fn failed(record: usize, level: f64) -> Observation {
+        Observation { fate: None, ..run(record, level, false) }
+    }
+
+    #[test]
+    fn records_without_an_answer_say_nothing() {
+        let levels = [0.2, 0.4, 0.6, 0.8, 1.0];
+        let of_one = levels.map(|level| run(0, level, ![0.2, 0.6].contains(&level)));
+        let others = (1..5).flat_map(|record| levels.map(|level| failed(record, level)));
+        let found = overturning(&of_one.into_iter().chain(others).collect::<Vec<_>>());
+        assert_eq!((found.fit, found.records, found.undecided()), (Fit::OneRecord, 1, 20));
+        // Thirteen records have answers, thirteen others none.
+        let runs = (0..26).flat_map(|record| {
+            levels.map(|level| match record < 13 {
+                true => run(record, level, level > 0.2 + 0.07 * record as f64),
+                false => failed(record, level),
+            })
+        });
+        let found = overturning(&runs.collect::<Vec<_>>());
+        let told = found.statements().join("; ");
+        assert!(told.contains("by resampling 13 records") && told.contains("13 records are few"), "{told}");
+    }
+
+    /// Shares of 5, 8 and 5 in 50, and of 3, 0, 2, 2, 3, 1 in 6, rise by less than their noise: the median would be a number that doubles do not have.
+    #[test]
+    fn shares_that_hardly_rise_make_no_curve() {
+        for (levels, reached, records) in
+            [(&[0.1, 0.2, 0.4, 1.0, 1.5, 2.0][..], &[3, 0, 2, 2, 3, 1][..], 6), (&[1.0, 2.002, 4.0], &[5, 8, 5], 50)]
+        {
+            let runs = levels.iter().zip(reached);
+            let runs = runs
+                .flat_map(|(level, reached)| (0..records).map(move |record| run(record, *level, record < *reached)));
+            let found = overturning(&runs.collect::<Vec<_>>());
+            if let Fit::Lognormal { median, .. } = found.fit {
+                assert!(median.is_finite() && found.probability(1.0).is_some_and(|p| p > 0.0), "{found:?}");
+            }
+            let ends = found.bands.and_then(|bands| bands.median).unwrap_or_default();
+            assert!(ends.iter().all(|end| end.is_finite()), "{ends:?}");
+        }
+    }
+
+    #[test]
+    fn remedies_know_of_levels_without_answers() {
+        let told = |runs: Vec<Observation>| overturning(&runs).statements()[0].clone();
+        let stripe =
+            |level: f64, lost: usize| (0..4).map(move |record| run(record, level, record < lost)).collect::<Vec<_>>();
+        let open = |level: f64| (0..4).map(move |record| failed(record, level)).collect::<Vec<_>>();
+        for runs in [
+            [open(0.1), stripe(0.2, 4), stripe(0.3, 4)].concat(),
+            [stripe(0.1, 0), stripe(0.2, 2), open(0.4)].concat(),
+            [open(0.2), stripe(0.5, 2), open(0.9)].concat(),
+            [stripe(0.1, 0), open(0.4)].concat(),
+        ] {
+            assert!(told(runs.clone()).contains("the other runs have no answer"), "{}", told(runs));
         }
     }
 

@@ -119,6 +119,7 @@ impl TryFrom<Cells<'_>> for Observation {
         // A study says so in the column of outcomes; its peaks are those of the time in which the run is known. A run from which no motion follows has no
         // verdict.
         let judged = fate.map(|fate| fate.as_determined(degree));
+        let is_whole_and_open = degree == Some(Degree::NotDetermined) && fate != Some(Fate::NotDetermined);
         let rocks = matches!(fate, Some(Fate::Rocks | Fate::Overturns));
         Ok(Observation {
             record,
@@ -127,7 +128,7 @@ impl TryFrom<Cells<'_>> for Observation {
             // Tables with the column and without it may have been joined: its blank says nothing of a run that rocks.
             has_uplift: rocks || has_uplift.unwrap_or(false),
             // Peaks of a whole run that is not determined mean nothing: its companions have other peaks.
-            peaks: if judged == fate { peaks } else { Vec::new() },
+            peaks: if is_whole_and_open { Vec::new() } else { peaks },
             residual_slides,
         })
     }

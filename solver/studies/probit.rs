@@ -56,6 +56,12 @@ pub struct Probit {
 }
 
 impl Probit {
+    /// Whether the probability rises with the level, and enough for a median within the range of doubles.
+    pub fn rises(&self) -> bool {
+        let median = self.median();
+        self.slope > 0.0 && median > 0.0 && median.is_finite()
+    }
+
     /// Median `θ` of the lognormal, in the unit of the level.
     pub fn median(&self) -> f64 {
         libm::exp(-self.intercept / self.slope)
@@ -84,8 +90,15 @@ impl Probit {
 /// Largest number of steps of Newton's method; a handful is usual, as `ln L` is concave.
 const MOST_STEPS: usize = 200;
 
-/// Newton's method ends when a step raises `ln L` by no more than this share of its magnitude.
+/// Newton's method ends when a step raises `ln L` by no more than this share of its magnitude, and is short.
 const SMALLEST_GAIN: f64 = 1e-15;
+
+/// Rounding of `ln L`, as a share of its magnitude: a sum of some dozens of terms.
+const ROUNDING_OF_LIKELIHOOD: f64 = 1e-14;
+
+/// Length of a step of Newton's method, in standard deviations of `ln x` and of the normal distribution, up to which it is short. Where runs with and without
+/// the state hardly overlap, `ln L` is so flat that its gain is rounding long before.
+const SHORT_STEP: f64 = 1e-9;
 
 /// A slope up to this, per standard deviation of `ln x`, is what Newton's method leaves of zero: the root of [`SMALLEST_GAIN`]. Shares of the levels are equal
 /// then, or differ by less than one run in a million.
@@ -163,15 +176,17 @@ fn climb(trials: &[Trial]) -> Probit {
             (curvature[2] * gradient[0] - curvature[1] * gradient[1]) / determinant,
             (curvature[0] * gradient[1] - curvature[1] * gradient[0]) / determinant,
         ];
-        // The step is halved until `ln L` does not fall.
+        // The step is halved until `ln L` does not fall, but for its rounding.
+        let least = best - ROUNDING_OF_LIKELIHOOD * best.abs();
         let tried = (0..60).map(|halvings| 0.5_f64.powi(halvings)).map(|share| {
             let tried = [place[0] + share * step[0], place[1] + share * step[1]];
             (value(tried), tried)
         });
-        let Some((found, tried)) = tried.into_iter().find(|(found, _)| *found >= best) else { break };
+        let Some((found, tried)) = tried.into_iter().find(|(found, _)| *found >= least) else { break };
         let gain = found - best;
-        (best, place) = (found, tried);
-        if gain <= SMALLEST_GAIN * best.abs() {
+        (best, place) = (best.max(found), tried);
+        let is_short = step.iter().all(|part| part.abs() <= SHORT_STEP);
+        if gain <= SMALLEST_GAIN * best.abs() && is_short {
             break;
         }
     }
@@ -250,6 +265,23 @@ mod tests {
             assert!((curve.median() / median - 1.0).abs() < 1e-9, "{curve:?}");
             assert!((curve.dispersion() / dispersion - 1.0).abs() < 1e-9, "{curve:?}");
             assert!((curve.probability(median) - 0.5).abs() < 1e-9);
+        }
+    }
+
+    /// Runs with and without the state overlap by a small share of a level: the likelihood is nearly flat, and its gain is rounding before the curve is found.
+    /// Dispersions by Newton's method with 50 digits (mpmath).
+    #[test]
+    fn runs_that_hardly_overlap_have_their_curve() {
+        for (overlap, exact) in [
+            (1e-4, 0.121_858_479_963_819_2),
+            (1e-5, 0.107_835_889_827_705_4),
+            (1e-6, 0.097_704_830_467_348_6),
+            (1e-7, 0.089_955_365_028_012_55),
+        ] {
+            let levels = [0.1, 0.1 * (1.0 + overlap), 0.2, 5.0, 50.0].into_iter().zip([10.0, 10.0, 20.0, 20.0, 20.0]);
+            let trials: Vec<Trial> = levels.map(|(level, reached)| Trial { level, runs: 20.0, reached }).collect();
+            let Maximum::Curve(curve) = fit(&trials) else { panic!("a maximum") };
+            assert!((curve.dispersion() / exact - 1.0).abs() < 1e-6, "{overlap}: {}", curve.dispersion());
         }
     }
 

@@ -2,6 +2,7 @@
 
 use crate::scene_file::Setting;
 use statrs::distribution::{ContinuousCDF, LogNormal, Normal};
+use std::cmp::Ordering;
 
 /// How a value is distributed.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,7 +54,8 @@ impl Distribution {
         }
     }
 
-    /// Discrete; equally likely without weights.
+    /// Discrete; equally likely without weights. Numbers are put in their order, so that a quantile is one, and a correlation has its sign, however they are
+    /// listed; names keep that of the list.
     pub fn discrete(values: Vec<Setting>, weights: Option<Vec<f64>>) -> Result<Distribution, Refused> {
         let weights = weights.unwrap_or_else(|| vec![1.0; values.len()]);
         if values.is_empty() || weights.len() != values.len() {
@@ -61,9 +63,18 @@ impl Distribution {
             return Err((problem, "give at least one value, and a weight for each"));
         }
         let total: f64 = weights.iter().sum();
-        if weights.iter().any(|weight| *weight < 0.0) || total <= 0.0 {
-            return Err((format!("weights of {weights:?}"), "give weights of zero or above, not all zero"));
+        if weights.iter().any(|weight| *weight < 0.0) || total <= 0.0 || !total.is_finite() {
+            return Err((
+                format!("weights of {weights:?}"),
+                "give weights of zero or above, not all zero, with a finite sum",
+            ));
         }
+        let number = |value: &Setting| if let Setting::Number(number) = value { Some(*number) } else { None };
+        let mut weighted: Vec<(Setting, f64)> = values.into_iter().zip(weights).collect();
+        if weighted.iter().all(|(value, _)| number(value).is_some()) {
+            weighted.sort_by(|(a, _), (b, _)| number(a).partial_cmp(&number(b)).unwrap_or(Ordering::Equal));
+        }
+        let (values, weights): (Vec<Setting>, Vec<f64>) = weighted.into_iter().unzip();
         let mut sum = 0.0;
         let sums = weights.iter().map(|weight| {
             sum += weight / total;
@@ -148,7 +159,12 @@ mod tests {
         let found = [0.1, 0.2499, 0.2501, 0.9999].map(|share| discrete.quantile(share).to_string());
         assert_eq!(found, ["a", "a", "c", "c"]);
         assert!(Distribution::discrete(names.clone(), Some(vec![1.0])).is_err());
-        assert!(Distribution::discrete(names, Some(vec![0.0; 3])).is_err());
+        assert!(Distribution::discrete(names.clone(), Some(vec![0.0; 3])).is_err());
+        assert!(Distribution::discrete(names, Some(vec![1e308; 3])).is_err());
+        // A larger share is never a smaller number, however they are listed.
+        let numbers = [2700.0, 2000.0, 2500.0].map(Setting::Number).to_vec();
+        let discrete = Distribution::discrete(numbers, Some(vec![1.0, 2.0, 1.0])).expect("a distribution");
+        assert_eq!([0.4, 0.6, 0.9].map(|share| number(discrete.quantile(share))), [2000.0, 2500.0, 2700.0]);
     }
 
     #[test]

@@ -21,8 +21,8 @@ pub struct Goodness {
     pub chi_squared: f64,
     /// Stripes or groups less the two parameters.
     pub degrees_of_freedom: usize,
-    /// Probability of a larger `chi_squared` if the curve were true and all runs were independent, which runs of one record are not.
-    /// `None` without a degree of freedom.
+    /// Probability of a larger `chi_squared` by the chi-squared distribution, which holds for independent runs, which those of one record are not, and for
+    /// many runs at each level. Levels at which the curve is nearly 0 or 1 make it too large. `None` without a degree of freedom.
     pub p_value: Option<f64>,
     /// McFadden's `1 - ln L / ln L₀`, `L₀` the likelihood of a constant share.
     pub pseudo_r2: f64,

@@ -3,8 +3,7 @@
 use super::{Bands, Fit, Fragility, Goodness, Layout};
 use crate::names::first_few;
 
-/// Number of records below which the report calls the bands too narrow. Bands of 90 % contain the true median in 87 % and the true dispersion in 78 %
-/// of cases with twenty records, in 84 % and 65 % with ten, in 73 % and 52 % with six (`tests/fragility.rs`).
+/// Number of records below which the report calls the bands too narrow (docs/book/fragility.md has how often they hold the truth; `tests/fragility.rs`).
 const FEW_RECORDS: usize = 20;
 
 /// Remedy where runs at the levels that would give a curve have no answer.
@@ -59,10 +58,11 @@ impl Fragility {
     fn bands_in_words(&self) -> Option<String> {
         let Bands { confidence, replicates, fitted, median, dispersion, .. } = self.bands.as_ref()?;
         let (Some(median), Some(dispersion)) = (median, dispersion) else {
-            return Some(format!(
-                "no bands: only {fitted} of {replicates} resampled sets have a curve; {} records are too few",
-                self.records
-            ));
+            let reason = match self.records {
+                records if records < FEW_RECORDS => format!("{records} records are too few"),
+                _ => "the share of runs with the state rises too little".into(),
+            };
+            return Some(format!("no bands: only {fitted} of {replicates} resampled sets have a curve; {reason}"));
         };
         let left_out = match replicates - fitted {
             0 => String::new(),
@@ -163,9 +163,16 @@ impl Fragility {
                 let remedy = if self.lacks_answers(up_to, f64::INFINITY) { NO_ANSWERS } else { "go higher" };
                 format!("{none}no run reaches the state up to {}; {remedy}", brief(up_to))
             }
-            Fit::Always { from } => format!("{none}every run reaches the state from {} on; begin lower", brief(from)),
+            Fit::Always { from } => {
+                let remedy = if self.lacks_answers(0.0, from) { NO_ANSWERS } else { "begin lower" };
+                format!("{none}every run reaches the state from {} on; {remedy}", brief(from))
+            }
             Fit::Step { never_to, .. } if self.levels_with_runs() == 1 => {
-                format!("{none}all runs are at one level, {}; a curve needs two levels or more", brief(never_to))
+                let [runs, remedy] = match self.lacks_answers(0.0, f64::INFINITY) {
+                    true => ["all runs with an answer", NO_ANSWERS],
+                    false => ["all runs", "a curve needs two levels or more"],
+                };
+                format!("{none}{runs} are at one level, {}; {remedy}", brief(never_to))
             }
             Fit::Step { never_to, always_from } if never_to == always_from => {
                 let level = brief(never_to);
@@ -174,7 +181,8 @@ impl Fragility {
                 };
                 match [is_beyond(|a, b| a < b), is_beyond(|a, b| a > b)] {
                     [true, false] => {
-                        format!("{none}no run below {level} reaches the state, and some at {level} do; go higher")
+                        let remedy = if self.lacks_answers(never_to, f64::INFINITY) { NO_ANSWERS } else { "go higher" };
+                        format!("{none}no run below {level} reaches the state, and some at {level} do; {remedy}")
                     }
                     [false, true] => {
                         format!(
@@ -194,7 +202,11 @@ impl Fragility {
                     "{none}no run up to {never_to} reaches the state and every run from {always_from} on does; {remedy}"
                 )
             }
-            Fit::Falling => format!("{none}the share of runs with the state does not rise with the level"),
+            Fit::Falling => {
+                format!(
+                    "{none}the share of runs with the state does not rise with the level, or too little for a curve"
+                )
+            }
         }
     }
 }

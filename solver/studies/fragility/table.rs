@@ -121,7 +121,12 @@ impl Table {
         named.collect()
     }
 
-    /// For each record, the level of each decided run, and 1 if the run reached the state, otherwise 0.
+    /// Number of records with a run of which it is known whether it reached the state. Others say nothing.
+    pub fn records_with_answers(&self) -> usize {
+        self.decided_by_record().len()
+    }
+
+    /// For each record with decided runs, the level of each of them, and 1 if the run reached the state, otherwise 0.
     fn decided_by_record(&self) -> Vec<Vec<(usize, f64)>> {
         let mut own: Vec<Vec<(usize, f64)>> = vec![Vec::new(); self.records.len()];
         for (record, level, reached) in &self.runs {
@@ -129,6 +134,7 @@ impl Table {
                 own[*record].push((*level, f64::from(u8::from(*reached))));
             }
         }
+        own.retain(|runs| !runs.is_empty());
         own
     }
 
@@ -146,7 +152,7 @@ impl Table {
         }
         trials.retain(|trial| trial.runs > 0.0);
         match fit(&trials) {
-            Maximum::Curve(curve) if curve.slope > 0.0 => Some(curve),
+            Maximum::Curve(curve) if curve.rises() => Some(curve),
             _ => None,
         }
     }
