@@ -439,7 +439,10 @@ impl Response {
     /// If `column` has another number of blocks than that of the run.
     pub fn ends_below_balance(&self, column: &Column, overturn_angle: f64) -> bool {
         self.assert_of(column);
-        let is_below = |block: usize| overturn_angle < column.stack(block - 1).slenderness();
+        // A response that was read may name a block that there is not.
+        let is_below = |block: usize| {
+            (1..=column.len()).contains(&block) && overturn_angle < column.stack(block - 1).slenderness()
+        };
         self.status == StopReason::Overturned && self.overturned_block.is_some_and(is_below)
     }
 

@@ -37,7 +37,7 @@ impl RowTimes<'_> {
     /// Number of rows of a run that lasts to its end, dimensionless. An `f64`, since a short interval may give more rows than integers hold.
     pub fn count(self) -> f64 {
         match self {
-            RowTimes::Every { dt, end } => (last(end) / dt).floor() + 1.0,
+            RowTimes::Every { dt, end } => ((last(end) / dt).floor() + 1.0).max(0.0),
             RowTimes::At(times) => times.len() as f64,
         }
     }

@@ -45,6 +45,8 @@ pub fn impact(
     law: ImpactLaw,
 ) -> Result<Decision, SingularMass> {
     assert_of(column, pattern, [theta, omega, law.kappa], closing.iter().copied());
+    let is_repeated = |(place, interface): (usize, &usize)| closing[..place].contains(interface);
+    assert!(!closing.iter().enumerate().any(is_repeated), "an interface that closes is given twice");
     for_size!(column.len(), size => impact_at(&StateAtEvent::new(size, column, theta), pattern, omega, closing, ground, law))
 }
 

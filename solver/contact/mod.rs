@@ -112,6 +112,15 @@ mod tests {
     }
 
     #[test]
+    #[should_panic(expected = "given twice")]
+    fn an_interface_that_closes_is_given_once() {
+        let column = Column::equal_blocks(3, 0.35, 1.4, 2700.0, 9.81).expect("valid");
+        let law = ImpactLaw { kappa: &[0.7; 3], stick_angle: 1e-9, is_recorded: false };
+        let _ =
+            impact(&column, &Pattern::from_signs(&[1, 1, -1]), &[0.0; 3], &[-0.3, -0.5, -0.2], &[0, 1, 1], GROUND, law);
+    }
+
+    #[test]
     fn a_squat_block_stops_at_its_first_impact() {
         let column = Column::new(vec![Block::rectangle(2.0, 1.0, 1.0)], 9.81).expect("valid");
         let law = ImpactLaw { kappa: &[1.0], stick_angle: 1e-9, is_recorded: true };

@@ -335,9 +335,13 @@ impl<S: Size> Factorised<S> {
         Some(Factorised { lower: matrix, width, is_chain: false })
     }
 
-    /// `x` of `L Lᵀ x = right`, in place; length width.
+    /// `x` of `L Lᵀ x = right`, in place; of a longer list, the first `width` entries.
+    ///
+    /// # Panics
+    /// If the list has fewer entries than the matrix has rows.
     #[inline(always)]
     pub fn solve(&self, right: &mut [f64]) {
+        assert!(right.len() >= self.width, "{} entries for {} rows", right.len(), self.width);
         if self.is_chain {
             return self.solve_chain(right);
         }

@@ -20,11 +20,9 @@ const ROW_INTERVAL_OF_P: f64 = 0.1;
 /// Largest number of intervals between rows of a run: the memory of ten runs stays below 30 MB.
 const MOST_INTERVALS: usize = 5_000;
 
-/// Least number of intervals from the start of the run to its end.
-const LEAST_INTERVALS: f64 = 100.0;
-
-/// Least span of the rows of a run's companions, as a multiple of the time up to the end of the run: companions may last longer.
-const SPAN_OF_ROWS: f64 = 2.0;
+/// Least and largest number of intervals from the start of the run to its end. With the largest, rows span twice that time: companions may last longer. No row
+/// lies at the end, where rounding would decide whether a companion that falls a little later is compared there.
+const INTERVALS_TO_THE_END: [f64; 2] = [100.5, 0.5 * MOST_INTERVALS as f64 + 0.5];
 
 /// What is computed besides the trust in the verdict. Start from `TrustOptions::default()` and set fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -221,7 +219,8 @@ fn row_interval(column: &Column, run_end: f64) -> f64 {
     if run_end == 0.0 {
         return usual;
     }
-    usual.min(run_end / LEAST_INTERVALS).max(SPAN_OF_ROWS * run_end / MOST_INTERVALS as f64)
+    let [least, most] = INTERVALS_TO_THE_END;
+    usual.clamp(run_end / most, run_end / least)
 }
 
 /// When the verdict of a run was certain `[s]`.
