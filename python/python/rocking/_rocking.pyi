@@ -26,6 +26,7 @@ __all__ = [
     "page",
     "probability",
     "record_columns",
+    "replaced_by",
     "scene_text",
     "stripes",
     "to_toml",
