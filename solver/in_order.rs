@@ -29,8 +29,8 @@ const PART: usize = 1 << 16;
 
 /// Computes one result for each index of `range` on the threads of `pool`. `worker` is called once per thread and part of the range and returns the function
 /// with which that thread computes. The calling thread hands finished results to `take` in the order of their indices: about 0.1 s after a result and all
-/// before it are finished, or when the present run of its thread ends, if that is later. Every 0.1 s in which nothing has finished it hands over an empty
-/// list. When `take` breaks, no further result is begun.
+/// before it are finished, or when the present run of its thread ends, if that is later. Where no result is due it hands over an empty list, some twenty times
+/// a second. When `take` breaks, no further result is begun.
 ///
 /// # Panics
 /// If it is called on a thread of `pool`, which would wait for itself; and as `worker`, its functions and `take` do: no further result is begun then.
@@ -127,7 +127,7 @@ impl Drop for EndsOnPanic<'_> {
 }
 
 impl Front {
-    /// The next indices, so many at once at most; `None` if none is left.
+    /// Takes up to `at_once` indices; `None` if none is left.
     fn take(&self, at_once: usize) -> Option<Range<usize>> {
         let after = |first: usize| first.saturating_add(at_once).min(self.end);
         let next = |first: usize| (first < self.end).then(|| after(first));

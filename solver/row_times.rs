@@ -58,6 +58,12 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_run_that_ends_before_its_start_has_no_rows() {
+        let times = RowTimes::Every { dt: 1.0, end: -1.0 };
+        assert_eq!((times.count(), times.get(0)), (0.0, None));
+    }
+
+    #[test]
     fn the_last_row_is_not_lost_to_rounding() {
         // 3 · 0.1 is 0.30000000000000004.
         let rows = RowTimes::Every { dt: 0.1, end: 0.3 };

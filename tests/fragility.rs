@@ -283,7 +283,7 @@ fn bands_hold_the_truth_about_as_often_as_they_say() {
 
 /// The table of docs/book/fragility.md: `cargo test --release --test solver fragility:: -- --ignored --nocapture`.
 #[test]
-#[ignore = "a measurement of twenty seconds"]
+#[ignore = "a measurement of a minute"]
 fn coverage_by_number_of_records() {
     for levels in [15, 30] {
         for records in [6, 10, 20, 40, 80] {
@@ -293,5 +293,45 @@ fn coverage_by_number_of_records() {
             );
             assert!(median > 0.6 && with_bands > 0.8);
         }
+    }
+}
+
+/// How often the p-value of a true curve is above 0.99 and below 0.05, where all runs are independent: docs/book/fragility.md has the shares.
+#[test]
+#[ignore = "a measurement of some seconds"]
+fn p_values_of_true_curves() {
+    let mut random = Random::new(1);
+    for (median, dispersion) in [(0.876f64, 0.23), (0.5, 0.2)] {
+        let (mut fitted, mut large, mut small) = (0.0, 0.0, 0.0);
+        for _ in 0..1000 {
+            let levels = (1..=15).map(|step| f64::from(step) / 10.0);
+            let runs = levels.flat_map(|level| (0..20).map(move |run| (run, level)));
+            let runs: Vec<Observation> = runs
+                .map(|(run, level)| Observation {
+                    record: format!("r{run:02}"),
+                    level,
+                    fate: Some(match normal(&mut random) < (level / median).ln() / dispersion {
+                        true => Fate::Overturns,
+                        false => Fate::Rocks,
+                    }),
+                    has_uplift: true,
+                    peaks: vec![0.5],
+                    residual_slides: Vec::new(),
+                })
+                .collect();
+            let mut options = FragilityOptions::default();
+            options.replicates = 0;
+            let found = Fragility::of(&runs, LimitState::Overturned, &options);
+            let Some(p) = found.goodness.and_then(|goodness| goodness.p_value) else { continue };
+            fitted += 1.0;
+            large += f64::from(u8::from(p > 0.99));
+            small += f64::from(u8::from(p < 0.05));
+        }
+        println!(
+            "median {median}, dispersion {dispersion}: {fitted} curves, p > 0.99 {}, p < 0.05 {}",
+            large / fitted,
+            small / fitted
+        );
+        assert!(fitted > 900.0 && small / fitted < 0.1);
     }
 }

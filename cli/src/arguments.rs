@@ -151,7 +151,7 @@ pub enum Command {
     ///
     /// Writes TABLE-fragility.csv and TABLE-shares.csv beside the table; with `--where size.alpha=0.2`, TABLE-where-size.alpha=0.2-fragility.csv and so on.
     Fragility(Fragility),
-    /// Join the tables of all shards of a sweep.
+    /// Join the tables of all shards of a sweep; exits with 1 where no row has a result.
     ///
     /// `rocking sweep --shard` writes a digest of its sweep, base scene and records beside each table (TABLE.digest); tables whose digests
     /// differ are refused.

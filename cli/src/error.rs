@@ -41,6 +41,9 @@ pub enum Failure {
     /// A file that is no result would be replaced by one.
     #[error("{}: there is such a file already, and no command here has written it; choose another name, or remove it", .0.display())]
     Foreign(PathBuf),
+    /// A file that is something else would be replaced by a result of this kind.
+    #[error("{}: there is such a file already, and it is no {}; choose another name, or remove it", .0.display(), .1)]
+    OtherKind(PathBuf, &'static str),
     /// A file or folder cannot be read.
     #[error("{}: {}", .0.display(), .1)]
     Input(PathBuf, String),

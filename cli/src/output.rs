@@ -25,9 +25,10 @@ pub fn csv(
     file(path, rows.into_inner().map_err(|error| at(Failure::File, path)(error.into_error()))?)
 }
 
-/// Removes what an earlier run has left beside its table, unless it is one of the inputs, or no command has written it by its first line.
+/// Removes what an earlier run has left beside its table, unless it is one of the inputs, cannot be read, or is none by its first line.
 pub fn remove(path: &Path, inputs: &[PathBuf], is_own: impl FnOnce(&str) -> bool) -> Result<(), Failure> {
-    if inputs.iter().any(|input| are_same(input, path)) || check_replaced(path, is_own).is_err() {
+    let is_kept = || inputs.iter().any(|input| are_same(input, path)) || std::fs::File::open(path).is_err();
+    if is_kept() || check_replaced(path, is_own).is_err() {
         return Ok(());
     }
     match std::fs::remove_file(path) {

@@ -172,6 +172,16 @@ fn rows_of_other_axes_are_kept_apart() {
     assert_eq!(folder.read("t-fragility.csv"), of_all);
     assert_eq!(folder.table("t-where-column.alpha=0.15-fragility.csv").texts("where"), ["column.alpha=0.15"]);
     assert!(folder.has("t-where-column.alpha=0.15-shares.csv"));
+    // Conditions that differ in a sign which no file name has.
+    folder.write(
+        "u.csv",
+        "record,pgv,outcome,kind\na,0.1,rocks,a b\nb,0.2,overturns,a b\na,0.1,rocks,a/b\nb,0.2,overturns,a/b\n",
+    );
+    let before = folder.names("").len();
+    for kind in ["kind=a b", "kind=a/b"] {
+        folder.succeeds(&["fragility", "u.csv", "--state", "overturned", "--replicates", "0", "--where", kind][..]);
+    }
+    assert_eq!(folder.names("").len(), before + 4, "{:?}", folder.names(""));
     assert_eq!(folder.says("fragility t.csv --state overturned --quiet"), (String::new(), String::new()));
     let (runs, warning) = fitted("--where column.alpha=0.30");
     assert!(runs == 72 && warning.contains("6 run(s) end before their ground motion"), "{warning}");

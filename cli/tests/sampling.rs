@@ -255,7 +255,7 @@ fn probabilities_say_how_many_runs_are_cut() {
 
 /// A file that has the name of what a sweep makes or removes, but is not of that kind, is the user's.
 #[test]
-fn files_that_no_command_has_made_are_neither_removed_nor_replaced() {
+fn files_of_other_kinds_are_neither_removed_nor_replaced() {
     let folder = Folder::with("scene.toml", SCENE);
     folder.write("plain.toml", "scene = \"scene.toml\"\n[axes]\neta = [0.8, 0.9]\n");
     let sampled = "scene = \"scene.toml\"\n[sampling]\nsamples = 8\n[axes]\neta = { uniform = [0.8, 0.9] }\n";
@@ -266,11 +266,13 @@ fn files_that_no_command_has_made_are_neither_removed_nor_replaced() {
     folder.write("t.csv.digest", "my own notes\n");
     let kept = ["t-probability.csv", "t-stripes.csv", "t.csv.digest"].map(|name| (name, folder.read(name)));
     folder.succeeds("sweep plain.toml --out t.csv");
-    folder.refused("sweep sampled.toml --out t.csv", &["t-probability.csv", "no command here has written it"]);
+    folder.refused("sweep sampled.toml --out t.csv", &["t-probability.csv", "it is no table of probabilities"]);
     folder.succeeds("merge t.csv t-probability.csv");
     folder.write("notes.csv", "my own notes\n");
     let fragility = "fragility --state overturned --replicates 0 --measure restitution.eta t.csv --out";
-    folder.refused(&format!("{fragility} notes.csv"), &["notes.csv", "no command here has written it"]);
+    folder.refused(&format!("{fragility} notes.csv"), &["notes.csv", "it is no table of fragility curves"]);
+    // A shard would write its digest there.
+    folder.refused("sweep plain.toml --out t.csv --shard 1/2", &["t.csv.digest", "no command here has written it"]);
     kept.iter().for_each(|(name, text)| assert_eq!(folder.read(name), *text, "{name}"));
     // What the commands have made goes with its table.
     folder.succeeds(&format!("{fragility} t-fragility.csv"));

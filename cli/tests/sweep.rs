@@ -440,6 +440,14 @@ fn errors_alone_are_merged_with_a_failure_and_not_drawn() {
     folder.succeeds("sweep sweep.toml --out 2.csv --shard 2/2");
     let told = folder.succeeds("merge all.csv 1.csv 2.csv --sweep sweep.toml");
     assert!(told.contains("errors 1") && told.contains("wrote 2 row(s) of 2 table(s)"), "{told}");
+    // Errors alone do not take its place.
+    let kept = folder.read("all.csv");
+    folder.write("sweep.toml", "scene = \"base.toml\"\n[axes]\neta = [1.5, 2.5]\n");
+    for shard in [1, 2] {
+        folder.fails(1, &format!("sweep sweep.toml --out e{shard}.csv --shard {shard}/2"), &["none of the 1 point(s)"]);
+    }
+    folder.fails(1, "merge all.csv e1.csv e2.csv", &["all.csv: none of the 2 point(s)", "left as it was"]);
+    assert_eq!(folder.read("all.csv"), kept);
 }
 
 /// The first point and the last one have faults of their own, which hide the unknown key.

@@ -167,10 +167,12 @@ impl Phase {
             let last = problem.ground[self.segment].end.min(until);
             let attempt = self.integrator.attempt(t, suggested, longest.min(last - t), problem.tolerance);
             suggested = attempt.suggested;
-            // A step that cannot be shorter is taken as it is: what reads the steps is to see the whole stretch.
-            if !attempt.is_good() && t + suggested > t {
+            if !attempt.is_good() {
                 self.work.rejected += 1;
                 longest = suggested;
+                if t + suggested <= t {
+                    return;
+                }
                 continue;
             }
             longest = f64::INFINITY;

@@ -314,6 +314,7 @@ mod tests {
         let others = (1..5).flat_map(|record| levels.map(|level| failed(record, level)));
         let found = overturning(&of_one.into_iter().chain(others).collect::<Vec<_>>());
         assert_eq!((found.fit, found.records, found.undecided()), (Fit::OneRecord, 1, 20));
+        assert!(found.statements()[0].starts_with("no curve: all runs with an answer are of one record"), "{found:?}");
         // Thirteen records have answers, thirteen others none.
         let runs = (0..26).flat_map(|record| {
             levels.map(|level| match record < 13 {

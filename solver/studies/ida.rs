@@ -303,7 +303,7 @@ mod tests {
         assert!(study("pga_g").is_ok());
     }
 
-    /// With friction, rows of a hundred blocks take more memory than the interval between them was chosen for.
+    /// With friction, `MOST_ROWS` rows of a hundred blocks take more memory than a scene may.
     #[test]
     fn scenes_of_long_columns_have_no_more_rows_than_fit() {
         let column = Column::equal_blocks(100, 0.5, 2.5, 1.0, 9.81).expect("valid");

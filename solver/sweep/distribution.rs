@@ -54,8 +54,8 @@ impl Distribution {
         }
     }
 
-    /// Discrete; equally likely without weights. Numbers are put in their order, so that a quantile is one, and a correlation has its sign, however they are
-    /// listed; names keep that of the list.
+    /// Discrete; equally likely without weights. Numbers are put in their order, however they are listed: quantiles rise with the share, and a correlation has its
+    /// sign. Names keep the order of the list.
     pub fn discrete(values: Vec<Setting>, weights: Option<Vec<f64>>) -> Result<Distribution, Refused> {
         let weights = weights.unwrap_or_else(|| vec![1.0; values.len()]);
         if values.is_empty() || weights.len() != values.len() {

@@ -244,6 +244,16 @@ mod tests {
     use super::*;
     use rocking_ground::Motion;
 
+    /// Whether a row at the end is compared would hang on rounding.
+    #[test]
+    fn no_row_lies_at_the_end_of_a_run() {
+        let column = Column::equal_blocks(1, 0.4, 1.6, 1.0, 9.81).expect("positive sizes");
+        for run_end in [1e-3, 0.1, 1.0, 3.0, 300.0, 1e4] {
+            let intervals = run_end / row_interval(&column, run_end);
+            assert!((intervals - intervals.round()).abs() > 1e-3, "{run_end} s: {intervals}");
+        }
+    }
+
     /// How long a run might have lasted says nothing of a run that has ended.
     #[test]
     fn trust_does_not_depend_on_the_time_after_the_end_of_the_run() {

@@ -65,6 +65,10 @@ pub fn merge(out: &Path, shards: &[PathBuf], sweep: Option<&Path>) -> Result<(),
         Some(expected) => format!("all points of {}", shown(expected.file)),
         None => "--sweep FILE would tell whether points after them are missing".into(),
     };
+    // A table of errors takes the place of no other table.
+    if let Some(failure) = counting.failure(out, true).filter(|_| target.exists()) {
+        return Err(failure);
+    }
     put_in_place(merged, &target).map_err(failed)?;
     by_product::remove(out, &inputs)?;
     let Counting { tally, rows, .. } = &counting;

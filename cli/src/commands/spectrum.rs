@@ -48,13 +48,24 @@ pub fn plot(
     {
         return print(&report);
     }
-    print(&draw(table, &picture, paper)?)
+    let Drawn { report, warnings } = draw(table, &picture, paper)?;
+    warn(&warnings);
+    print(&report)
+}
+
+/// Figures that have been drawn.
+#[derive(Default)]
+pub struct Drawn {
+    /// Names of the files, with captions.
+    pub report: String,
+    /// About files beside them that show another table.
+    pub warnings: Vec<String>,
 }
 
 /// Draws a table into `picture`. A spectrum over two axes has a second figure, of the least value that overturns; curves of a table with slides have a second
-/// one, of the slides. The second figure stands beside `picture`. Returns the names of the files written, with captions.
-pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<String, Failure> {
-    let mut text = String::new();
+/// one, of the slides. The second figure stands beside `picture`.
+pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<Drawn, Failure> {
+    let mut report = String::new();
     let figures = figures(table, paper).map_err(at(Failure::Spectrum, table))?;
     let files = files(picture);
     let [own, minimum, slides] = &files;
@@ -66,13 +77,12 @@ pub fn draw(table: &Path, picture: &Path, paper: &Paper) -> Result<String, Failu
             _ => own,
         };
         write(&figure, path)?;
-        let _ = writeln!(text, "wrote {}: {}", shown(path), figure.caption);
+        let _ = writeln!(report, "wrote {}: {}", shown(path), figure.caption);
         drawn.push(path);
     }
-    for file in files.iter().filter(|file| !drawn.contains(file) && file.is_file()) {
-        warn(&[format!("{} was there before, and is no figure of this table", shown(file))]);
-    }
-    Ok(text)
+    let others = files.iter().filter(|file| !drawn.contains(file) && file.is_file());
+    let warnings = others.map(|file| format!("{} was there before, and is no figure of this table", shown(file)));
+    Ok(Drawn { report, warnings: warnings.collect() })
 }
 
 /// Paths for the figures of a table: `picture`, and `picture` with `-minimum` and with `-slides` in its name. A table has one of the latter at most.

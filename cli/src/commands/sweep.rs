@@ -5,6 +5,7 @@
 
 use crate::arguments;
 use crate::commands::probability::{self, Lost};
+use crate::commands::spectrum::Drawn;
 use crate::commands::{fractiles, lost_at, spectrum};
 use crate::error::Failure;
 use crate::output;
@@ -15,7 +16,7 @@ use crate::table::digest::{TableDigest, digest_file, is_digest};
 use crate::table::making::Making;
 use crate::table::tally::{Counting, Tally};
 use crate::table::{Format, check_replaced};
-use crate::terminal::{json, print, warn_of_some};
+use crate::terminal::{json, print, warn, warn_of_some};
 use crate::text::{printable, shown};
 use csv::StringRecord;
 use rocking::Fate;
@@ -41,6 +42,9 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
     let target = output::target(&out)?;
     check_replaced(&target)?;
     by_products.iter().try_for_each(|kind| kind.check_replaced(&kind.of(&out)))?;
+    if request.shard.is_some() {
+        output::check_replaced(&digest_file(&out), is_digest)?;
+    }
     let columns = columns(&sweep)?;
     let threads = request.threads.pool()?;
     if !request.quiet {
@@ -81,7 +85,10 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
     let fractiles = if has(ByProduct::Fractiles) { fractiles::write(&sweep, &out)? } else { String::new() };
     // Last: where a figure cannot be drawn, the tables and the counts are there.
     let drawn =
-        request.plot.as_ref().map_or(Ok(String::new()), |picture| spectrum::draw(&out, picture, &Paper::default()));
+        request.plot.as_ref().map_or(Ok(Drawn::default()), |picture| spectrum::draw(&out, picture, &Paper::default()));
+    if let Some(drawn) = drawn.as_ref().ok().filter(|_| !request.quiet) {
+        warn(&drawn.warnings);
+    }
     if request.json {
         json(&Counts { tally: &table.counting.tally, lost })?;
     } else if !request.quiet {
@@ -90,7 +97,7 @@ pub fn sweep(request: &arguments::Sweep) -> Result<(), Failure> {
         // If all rows are errors, the failure below states the first one.
         let failed = first_error.as_ref().filter(|_| tally.errors < *rows);
         let failed = failed.map_or(String::new(), |error| format!("the first error: {error}\n"));
-        let figures = drawn.as_deref().unwrap_or_default();
+        let figures = drawn.as_ref().map_or("", |drawn| &drawn.report);
         let at = if request.shard.is_none() { lost_at::in_words(&sweep, &out)? } else { String::new() };
         print(&format!("{tally}{at}{failed}{wrote}{probabilities}{fractiles}{figures}"))?;
     }

@@ -25,7 +25,6 @@ mod strips;
 
 use super::paper::{Angles, Paper};
 use super::sheet::Figure;
-use class::Class;
 use curves::Measure;
 use family::Family;
 use grid::{Grid, Plane};
@@ -91,7 +90,7 @@ pub fn check(axes: &[Axis], points: usize, with_peaks: bool) -> Result<(), NoSpe
 /// Figures of a sweep's table: largest angles, and slides where there are some, as curves, outcomes as strips, or a spectrum with the least values that overturn.
 pub fn figures(table: &Path, paper: &Paper) -> Result<Vec<Figure>, NoSpectrum> {
     let mut points = Points::read(table)?;
-    if points.len() > 0 && points.classes.iter().all(|class| *class == Class::Error) {
+    if points.errors > 0 && points.errors == points.len() {
         return Err(NoSpectrum::NoResult(points.len()));
     }
     if paper.angles == Angles::Degrees {

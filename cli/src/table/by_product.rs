@@ -1,6 +1,6 @@
 //! Tables that are made of the table of a sweep or a study, and stand beside it: `TABLE-stripes.csv` beside `TABLE.csv`.
 //!
-//! They are known by their columns. A file of such a name that no command has written is neither replaced nor removed.
+//! They are known by their columns. Another file of such a name is neither replaced nor removed.
 
 use crate::error::Failure;
 use crate::files::beside;
@@ -59,9 +59,22 @@ impl ByProduct {
     /// Refuses to replace a file that is no such table.
     ///
     /// # Errors
-    /// [`Failure::Foreign`]; [`Failure::File`] if the file that is there cannot be read.
+    /// [`Failure::OtherKind`]; [`Failure::File`] if the file that is there cannot be read.
     pub fn check_replaced(self, path: &Path) -> Result<(), Failure> {
-        output::check_replaced(path, |line| self.begins_with(line))
+        output::check_replaced(path, |line| self.begins_with(line)).map_err(|failure| match failure {
+            Failure::Foreign(path) => Failure::OtherKind(path, self.in_words()),
+            other => other,
+        })
+    }
+
+    fn in_words(self) -> &'static str {
+        match self {
+            ByProduct::Probability => "table of probabilities",
+            ByProduct::Fractiles => "table of fractiles",
+            ByProduct::Stripes => "table of stripes",
+            ByProduct::Curves => "table of fragility curves",
+            ByProduct::Shares => "table of shares",
+        }
     }
 }
 

@@ -6,7 +6,7 @@ import json
 import math
 import os
 import tempfile
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
 from html import escape
 from typing import TYPE_CHECKING, Any, Literal, NoReturn, TypeVar
@@ -292,27 +292,31 @@ class Run:
 
     @computed_once
     def peak_slide(self) -> Array:
-        """Largest size of the slide of each interface [m]; zero without friction; shape (blocks,)."""
-        return self._of_each("peak_slide", "sliding")
+        """Largest size of the slide of each interface [m]; without friction that of the start; shape (blocks,)."""
+        return self._of_sliding("peak_slide", abs)
 
     @computed_once
     def residual_slide(self) -> Array:
         """Slide of each interface at the end, that of the start included [m]; without friction that of the start; shape (blocks,)."""
-        return self._of_each("residual_slide", "sliding")
+        return self._of_sliding("residual_slide", lambda slide: slide)
 
     @computed_once
     def way_slid(self) -> Array:
         """Length of the way that each interface has slid, to and fro [m]; zero without friction; shape (blocks,)."""
-        return self._of_each("way_slid", "sliding")
+        return self._of_sliding("way_slid", lambda slide: 0.0)
 
-    def _of_each(self, name: str, table: str | None = None) -> Array:
-        """Numbers of the summary, one for each block or interface."""
+    def _of_each(self, name: str) -> Array:
+        """Numbers of the summary, one for each interface; NaN where they are not recorded."""
         summary = self.summary
-        if table is not None and summary.get(table) is None:
-            slides = np.array(summary["column"]["slides"], dtype=np.float64)
-            return _fixed(np.zeros_like(slides) if name == "way_slid" else np.abs(slides) if name == "peak_slide" else slides)
-        numbers = (summary if table is None else summary[table]).get(name)
+        numbers = summary.get(name)
         return _fixed(np.full(len(summary["alpha"]), np.nan) if numbers is None else np.array(numbers, dtype=np.float64))
+
+    def _of_sliding(self, name: str, without_friction: Callable[[float], float]) -> Array:
+        """Numbers of the report of slides, one for each interface; without friction those that follow from the slides of the start."""
+        summary = self.summary
+        report = summary.get("sliding")
+        numbers = map(without_friction, summary["column"]["slides"]) if report is None else report[name]
+        return _fixed(np.array(list(numbers), dtype=np.float64))
 
     @computed_once
     def trust(self) -> Trust | None:

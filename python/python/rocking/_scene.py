@@ -411,6 +411,9 @@ class Scene:
     ) -> "Scene":
         """The scene with other arguments; ``keys`` takes dotted ones such as ``{"block[2].mass": 900.0}``.
 
+        A new key takes the place of those of which a scene has one, as an axis of a sweep does: ``mass`` that of ``density``, ``amplitude`` that of
+        ``amplitude_g``.
+
         Another ``column`` replaces the blocks, their ``size`` and the gravity, which is 9.81 m/s² unless the new column has one. None removes a key:
         ``friction=None`` gives the scene without friction, ``keys={"excitation.vertical": None}`` without vertical motion, which ``vertical=None``, as
         ``horizontal=None`` and ``column=None``, leaves as it is.
@@ -430,13 +433,14 @@ class Scene:
             if motion is not None:
                 _put(keys, f"excitation.{name}", copied(checked(f"{name} motion", motion)))
         given = list(dotted(arguments))
-        # Those of the scene make room for those given; of two that are given the reader refuses one.
-        for key, value in given:
-            if value is not None:
-                for other in _replaced_by(key):
-                    _put(keys, other, None)
         for key, value in given:
             _put(keys, key, copied(value))
+        # Those of the scene make room for those given; of two that are given the reader refuses one.
+        named = {key for key, _ in given}
+        for key, value in given:
+            for other in _replaced_by(key) if value is not None else ():
+                if other not in named:
+                    _put(keys, other, None)
         return Scene._of(keys, self._file)
 
     @property

@@ -99,19 +99,22 @@ class Ida(Plan):
         """
         path = os.path.abspath(path_text("file", file))
         made = cls.__new__(cls)
-        # A process that runs a part reads the records again, and may have another folder.
-        made._source = (path, _rocking.scene_text(path))
+        # A process that runs a part reads scene and records again, and may have another folder.
+        made._source = (path, _rocking.scene_text(path), None)
         made._become()
+        made._source = (*made._source[:2], made.scene.toml)
         warn(made.warnings)
         return made
 
     def _become(self) -> None:
         if self._is_of_file():
-            path, text = self._source
+            path, text, base = self._source
             self._ida = _rocking.Ida.from_toml(text, path)
             scene = _rocking.from_toml(text)["scene"]
             is_table = isinstance(scene, Mapping)
             self._scene = Scene.from_dict(scene, file=path) if is_table else Scene.load(os.path.join(os.path.dirname(path), scene))
+            if base is not None and self._scene.toml != base:
+                raise StudyError(f"{self._scene.file} is another scene than when {path} was read; read the study again")
             self._records = Records(map(StudyRecord._of, self._ida.records))
         else:
             self._scene, self._records, measure, levels, free_swing, sa_period, sa_damping, trust = self._source
@@ -119,7 +122,7 @@ class Ida(Plan):
             self._ida = _rocking.Ida(self._scene._compiled, natives, measure, levels, free_swing, sa_period, sa_damping, trust)
 
     def _is_of_file(self) -> bool:
-        return len(self._source) == 2
+        return isinstance(self._source[0], str)
 
     @property
     def scene(self) -> Scene:
@@ -558,9 +561,10 @@ class Fragility:
     layout : str
         ``stripes`` or ``cloud``, see :meth:`Study.fragility`.
     records : int
-        Number of records.
+        Number of records with a run of which it is known whether it reached the state.
     fit : str
-        ``lognormal``, or why there is no curve: ``no-runs``, ``one-record``, ``never``, ``always``, ``step``, ``falling``.
+        ``lognormal``, or why there is no curve: ``no-runs``, ``one-record``, ``never``, ``always``, ``step``, ``falling`` (the share of runs
+        falls, stays, or rises too little for a median).
     median, dispersion : float or None
         Of the curve, by maximum likelihood (Baker 2015); the median in the unit of the measure.
     log_likelihood : float or None

@@ -60,7 +60,7 @@ impl Fragility {
         let (Some(median), Some(dispersion)) = (median, dispersion) else {
             let reason = match self.records {
                 records if records < FEW_RECORDS => format!("{records} records are too few"),
-                _ => "the share of runs with the state rises too little".into(),
+                _ => "runs with the state and without it hardly overlap, or their share hardly rises".into(),
             };
             return Some(format!("no bands: only {fitted} of {replicates} resampled sets have a curve; {reason}"));
         };
@@ -158,6 +158,9 @@ impl Fragility {
                 format!("lognormal, median {}, dispersion {}", brief(median), brief(dispersion))
             }
             Fit::NoRuns => format!("{none}there is no run with an answer"),
+            Fit::OneRecord if self.undecided() > 0 => {
+                format!("{none}all runs with an answer are of one record, which says nothing of others; {NO_ANSWERS}")
+            }
             Fit::OneRecord => format!("{none}all runs are of one record, which says nothing of others"),
             Fit::Never { up_to } => {
                 let remedy = if self.lacks_answers(up_to, f64::INFINITY) { NO_ANSWERS } else { "go higher" };

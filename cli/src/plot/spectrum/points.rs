@@ -38,6 +38,8 @@ pub struct Points {
     pub angles: Quantity,
     /// Size of the slide of each interface at the end `[m]`.
     pub slides: Quantity,
+    /// Number of rows whose runs failed.
+    pub errors: usize,
     /// Number of rows whose runs `t_end` cuts.
     truncated: usize,
 }
@@ -109,7 +111,7 @@ impl Points {
         let places: Vec<usize> = (0..outcome).filter(is_axis).collect();
         let mut axes: Vec<Axis> = places.iter().map(|place| (names[*place].into(), Vec::new())).collect();
         let mut seen: Vec<HashMap<String, usize>> = vec![HashMap::new(); axes.len()];
-        let (mut numbers, mut classes, mut truncated) = (Vec::new(), Vec::new(), 0);
+        let (mut numbers, mut classes, mut errors, mut truncated) = (Vec::new(), Vec::new(), 0, 0);
         for row in rows {
             let row = row.map_err(failed)?;
             let values = places.iter().map(|place| &row[*place]);
@@ -139,6 +141,7 @@ impl Points {
                     Class::of(fate.as_determined(degree), counted)
                 }
             };
+            errors += usize::from(&row[outcome] == ERROR);
             truncated += usize::from(truncated_at.and_then(|at| row.get(at)) == Some("true"));
             let known = match class {
                 class if !class.has_answer() => Some(f64::NAN),
@@ -150,7 +153,7 @@ impl Points {
             }
             classes.push(class);
         }
-        Ok(Points { axes, numbers, classes, angles, slides, truncated })
+        Ok(Points { axes, numbers, classes, angles, slides, errors, truncated })
     }
 
     /// Number of rows.
