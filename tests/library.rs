@@ -284,3 +284,17 @@ fn methods_have_the_names_of_other_programs() {
         assert_eq!(rocking::Method::parse(name), Some(rocking::Method::DormandPrince54), "{name}");
     }
 }
+
+/// As a file may have it that another program has written.
+#[test]
+fn a_response_that_names_a_block_that_there_is_not_is_below_no_balance() {
+    let column = Column::equal_blocks(1, 0.4, 1.6, 1.0, GRAVITY).expect("valid");
+    let mut scene = pulse(column.clone(), 20.0, 3.0);
+    scene.options.overturn_angle = 0.1;
+    let mut response = simulate(&scene).expect("solved");
+    assert!(response.ends_below_balance(&column, 0.1));
+    for block in [0, 2] {
+        response.overturned_block = Some(block);
+        assert!(!response.ends_below_balance(&column, 0.1), "{block}");
+    }
+}

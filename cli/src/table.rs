@@ -4,9 +4,9 @@
 //! `parquet` of this crate; without it, a table whose name ends in `.parquet` is refused.
 //!
 //! ```text
-//! making.rs    a table is made: growing.rs row by row, digest.rs of which inputs, tally.rs how its runs ended, parquet.rs
+//! making.rs      a table is made: growing.rs row by row, digest.rs of which inputs, tally.rs how its runs ended, parquet.rs
+//! runs.rs        a table of a study is read; delimited.rs, tidy.rs: also one that a spreadsheet has saved
 //! by_product.rs  tables that are made of a table, and stand beside it
-//! runs.rs      a table of a study is read; delimited.rs, tidy.rs: also one that a spreadsheet has saved
 //! ```
 
 pub mod by_product;

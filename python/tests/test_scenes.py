@@ -5,6 +5,8 @@ from __future__ import annotations
 import errno
 import pickle
 import re
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -479,6 +481,9 @@ def test_files_are_written_whole_or_not_at_all(tmp_path: Path, monkeypatch: pyte
         with pytest.raises(refusal) as refused:
             record.to_csv(place)
         assert refused.value.filename == str(place)
+    # An open file of a process is written as it is, not replaced.
+    program = "import rocking as rk; rk.Record([0.0, 1.0], 0.1).to_csv('/dev/stdout')"
+    assert subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout == rk.Record([0.0, 1.0], 0.1).to_csv()
     # A scene does not take the place of its record.
     scene = rk.Scene(rk.Column.prisms(1, half_width=0.4, half_height=1.6), rk.Motion(kind="record", file=str(file)))
     with pytest.raises(ValueError, match=r"reads the record .*r\.csv"):

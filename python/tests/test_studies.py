@@ -638,6 +638,18 @@ def test_records_of_a_study_do_not_change_and_have_the_names_of_the_command_line
     assert [one.name for one in rk.records("d")] == ["d/A_X.csv", "d/B_X.csv"]
 
 
+def test_a_study_that_was_read_notices_another_base_scene(tmp_path: Path) -> None:
+    """Parts of it would be of two studies."""
+    scene, study = tmp_path / "s.toml", tmp_path / "study.toml"
+    scene.write_text("[column]\nblocks = 1\nhalf_width = 0.3\nhalf_height = 1.2\n")
+    study.write_text('scene = "s.toml"\nmeasure = "pgv"\nlevels = [0.5]\ntrust = false\n[records.synthetic]\nseeds = [1, 2]\n')
+    kept = pickle.dumps(rk.Ida.load(study))
+    assert len(pickle.loads(kept).table()) == 2
+    scene.write_text(scene.read_text().replace("0.3", "0.31"))
+    with pytest.raises(rk.StudyError, match=r"s\.toml is another scene than when .*study\.toml was read"):
+        pickle.loads(kept)
+
+
 def test_records_in_g_are_of_the_gravity_that_is_given(tmp_path: Path) -> None:
     (tmp_path / "A_X.csv").write_text("t [s],a [g]\n0,0\n0.1,0.5\n0.2,0\n")
     usual, moon = (rk.records(tmp_path, **given)[0].horizontal for given in ({}, {"gravity": 1.62}))

@@ -14,8 +14,7 @@ pub struct Decision {
     /// No pattern was admissible: a block would fly.
     pub separation: bool,
     /// Besides the interfaces that are released, others are critical: their forces and accelerations are at the bounds between two states, and rounding has
-    /// chosen. What [`crate::contact::open`] finds an instant later decides: some 1e-6 of the
-    /// time in which the column falls.
+    /// chosen. What [`crate::contact::open`] finds an instant later decides: some 1e-6 of the time in which the column falls.
     pub is_critical: bool,
     /// Restitution was left out (docs/book/model.md, section 5).
     pub is_without_restitution: bool,
